@@ -1,0 +1,21 @@
+// The one exception for bad input: a message a user can act on.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace diptych {
+
+/// Bad usage or bad input. `what()` is one line that names the file, the object in it and the reason.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The machine lacks a device that the task needs; `what()` lists what is missing.
+class NoDevice : public Error {
+public:
+    using Error::Error;
+};
+
+}  // namespace diptych
