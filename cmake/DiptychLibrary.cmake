@@ -1,0 +1,18 @@
+# diptych_library(NAME FOLDERS folder... INCLUDE dir... [LINK target...])
+# A static library of the .cpp files that lie directly in the folders; header-only where there are none.
+# Sets NAME_SCOPE to the keyword (PUBLIC or INTERFACE) under which its usage requirements are to be stated.
+function(diptych_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "FOLDERS;INCLUDE;LINK")
+  list(TRANSFORM ARG_FOLDERS APPEND /*.cpp OUTPUT_VARIABLE patterns)
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  if(sources)
+    set(scope PUBLIC)
+    add_library(${name} STATIC ${sources})
+  else()
+    set(scope INTERFACE)
+    add_library(${name} INTERFACE)
+  endif()
+  target_include_directories(${name} ${scope} ${ARG_INCLUDE})
+  target_link_libraries(${name} ${scope} diptych_options ${ARG_LINK})
+  set(${name}_SCOPE ${scope} PARENT_SCOPE)
+endfunction()

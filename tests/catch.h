@@ -1,0 +1,27 @@
+// Catch2 2 or 3 under one name, and a way to say that a test could not run here.
+#pragma once
+
+#if DIPTYCH_CATCH_VERSION >= 3
+#include <catch2/catch_all.hpp>
+namespace Catch {
+using Catch::Approx;
+}
+#else
+#include <catch2/catch.hpp>
+#endif
+
+#include <string>
+
+namespace diptych::tests {
+
+/// Prints "SKIPPED: reason". The program then ends with code 77, which CTest counts as skipped, unless a check failed.
+void report_skipped(const std::string& reason);
+
+}  // namespace diptych::tests
+
+/// Leaves the test case, whose needs this machine does not meet.
+#define SKIP_TEST(reason)                        \
+    do {                                         \
+        diptych::tests::report_skipped(reason);  \
+        return;                                  \
+    } while (false)
