@@ -1,0 +1,25 @@
+// Which random number is for what. Every draw has a fixed place, so that a path can be replayed on either backend and a change in
+// one decision moves no other.
+#ifndef DIMENSIONS_H
+#define DIMENSIONS_H
+
+#include "compat.h"
+
+SHARED_BEGIN
+
+CONST uint DIMENSION_FILM = 0u;  // two
+CONST uint DIMENSION_LENS = 2u;  // two
+
+/// Dimensions of the path's n-th surface vertex start at DIMENSION_VERTEX + n * DIMENSIONS_PER_VERTEX; the rest are offsets to it.
+CONST uint DIMENSION_VERTEX = 4u;
+CONST uint DIMENSIONS_PER_VERTEX = 12u;
+CONST uint DIMENSION_BSDF_DIRECTION = 0u;   // two
+CONST uint DIMENSION_LOBE = 2u;             // two: lobe, facet of a normal map
+CONST uint DIMENSION_LIGHT_PICK = 4u;       // two, as bits: column of the alias table, keep or alias
+CONST uint DIMENSION_LIGHT_POSITION = 6u;   // two
+CONST uint DIMENSION_ENVIRONMENT = 8u;       // two, as bits: column of the map's alias table, keep or alias
+CONST uint DIMENSION_ROULETTE = 10u;        // one; the other is spare
+
+SHARED_END
+
+#endif

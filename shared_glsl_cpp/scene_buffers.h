@@ -1,0 +1,29 @@
+// The one list of a scene's arrays. Each backend expands it: bounds-asserted spans on the CPU; buffer references, the upload
+// loop and the memory report on the GPU. Elements are read through `load_NAME(index)` (hooks.md).
+#ifndef SCENE_BUFFERS_H
+#define SCENE_BUFFERS_H
+
+#include "scene_types.h"
+
+// X(element type, name)
+#define SCENE_BUFFERS(X)                    \
+    X(vec3, positions)                      \
+    X(uvec3, triangles)                     \
+    X(vec3, normals)                        \
+    X(vec4, tangents)                       \
+    X(vec2, uvs)                            \
+    X(vec4, colors)                         \
+    X(Instance, instances)                  \
+    X(Geometry, geometries)                 \
+    X(Material, materials)                  \
+    X(TextureSlot, texture_slots)           \
+    X(uint, texels)                         \
+    X(float, srgb_table)                    \
+    X(uint, emitter_slots)                  \
+    X(EmissiveTriangle, emissive_triangles) \
+    X(PunctualLight, punctual_lights)       \
+    X(AliasEntry, light_table)              \
+    X(vec4, environment_texels)             \
+    X(AliasEntry, environment_table)
+
+#endif

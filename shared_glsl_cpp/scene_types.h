@@ -1,0 +1,179 @@
+// Every struct that crosses the bus, once, in scalar layout. World space is the scene's, rebased by the packer.
+#ifndef SCENE_TYPES_H
+#define SCENE_TYPES_H
+
+#include "compat.h"
+
+SHARED_BEGIN
+
+/// A mesh placed in the world; x' = (row_0, row_1, row_2) · (x, 1).
+struct Instance {
+    vec4 row_0;
+    vec4 row_1;
+    vec4 row_2;
+    uint first_geometry;      // into geometries: the mesh's primitives, in order
+    uint first_emitter_slot;  // into emitter_slots, one per primitive; NONE where nothing of the mesh emits
+    uint mirrored;            // 1 where the determinant is negative
+};
+ASSERT_SIZE(Instance, 60);
+ASSERT_OFFSET(Instance, first_geometry, 48);
+
+/// One glTF primitive. Attribute offsets count elements of their own buffer; NONE where the attribute is missing.
+struct Geometry {
+    uint first_triangle;
+    uint first_vertex;  // into positions
+    uint first_normal;
+    uint first_tangent;
+    uint first_uv_0;  // both into uvs
+    uint first_uv_1;
+    uint first_color;
+    uint material;
+};
+ASSERT_SIZE(Geometry, 32);
+
+CONST uint MATERIAL_ALPHA_MASK = 1u;
+CONST uint MATERIAL_ALPHA_BLEND = 2u;
+CONST uint MATERIAL_DOUBLE_SIDED = 4u;  // emits from both sides
+CONST uint MATERIAL_UNLIT = 8u;         // black but for its emission
+CONST uint MATERIAL_EMISSIVE = 16u;     // its emission can be non-zero somewhere
+
+/// glTF 2.0 metallic-roughness; see `diptych::Material`. Slots index texture_slots, NONE where there is no texture.
+struct Material {
+    vec4 base_color;
+    vec3 emission;  // radiance, W/(sr m^2)
+    float metallic;
+    vec3 specular_color;
+    float roughness;
+    float specular;
+    float f0;  // normal reflectance of the dielectric, from its index of refraction
+    float normal_scale;
+    float alpha_cutoff;
+    uint flags;
+    uint base_color_slot;
+    uint metallic_roughness_slot;
+    uint normal_slot;
+    uint emission_slot;
+    uint specular_slot;
+    uint specular_color_slot;
+};
+ASSERT_SIZE(Material, 92);
+ASSERT_OFFSET(Material, flags, 64);
+
+CONST uint TEXTURE_SRGB = 1u;    // rgb decode by the sRGB curve
+CONST uint TEXTURE_NEAREST = 2u;
+CONST uint TEXTURE_UV_1 = 4u;
+CONST uint WRAP_REPEAT = 0u;
+CONST uint WRAP_CLAMP = 1u;
+CONST uint WRAP_MIRROR = 2u;
+CONST uint TEXTURE_WRAP_U_SHIFT = 4u;  // two bits each
+CONST uint TEXTURE_WRAP_V_SHIFT = 6u;
+
+/// A texture as one material reads it: (u', v') = (u_row, v_row) · (u, v, 1), then texels first_texel + y * width + x.
+struct TextureSlot {
+    uint first_texel;
+    uint width;
+    uint height;
+    uint flags;
+    vec3 u_row;
+    vec3 v_row;
+};
+ASSERT_SIZE(TextureSlot, 40);
+
+CONST uint EMITTER_TWO_SIDED = 1u;
+CONST uint EMITTER_MIRRORED = 2u;  // the front normal is -(edge_1 x edge_2)
+
+/// A light that a ray can hit: x = vertex_0 + b_1 edge_1 + b_2 edge_2, in world space. Lights 0 .. emissive_triangle_count-1.
+struct EmissiveTriangle {
+    vec3 vertex_0;
+    float pmf;  // of being picked among all lights
+    vec3 edge_1;
+    uint flags;
+    vec3 edge_2;
+    uint geometry;  // with primitive: where the texture coordinates are, for a textured emission
+    vec3 radiance;  // the material's factor, before its texture
+    uint primitive; // index within the geometry
+};
+ASSERT_SIZE(EmissiveTriangle, 64);
+
+CONST uint PUNCTUAL_POINT = 0u;
+CONST uint PUNCTUAL_SPOT = 1u;
+CONST uint PUNCTUAL_DIRECTIONAL = 2u;
+
+/// KHR_lights_punctual. Lights emissive_triangle_count .. +punctual_light_count-1; the environment, if any, is the last light.
+struct PunctualLight {
+    vec3 position;
+    uint type;
+    vec3 direction;  // where it shines to, unit
+    float pmf;
+    vec3 intensity;  // W/sr; directional: W/m^2
+    float cone_scale;   // spot: falloff = saturate(cos * cone_scale + cone_offset)^2
+    float cone_offset;
+};
+ASSERT_SIZE(PunctualLight, 52);
+
+/// One column of an alias table (Walker 1977; Vose 1991): keep the column with `probability`, else take `alias`.
+struct AliasEntry {
+    float probability;
+    uint alias;
+};
+ASSERT_SIZE(AliasEntry, 8);
+
+CONST uint CAMERA_PERSPECTIVE = 0u;
+CONST uint CAMERA_ORTHOGRAPHIC = 1u;
+
+/// A film point (x, y) in [-1, 1]^2, y up, is seen along forward + x right + y up (perspective, unnormalised) or from
+/// origin + x right + y up along forward (orthographic).
+struct Camera {
+    vec3 origin;
+    uint kind;
+    vec3 right;
+    float lens_radius;
+    vec3 up;
+    float focus_distance;
+    vec3 forward;  // unit
+};
+ASSERT_SIZE(Camera, 60);
+
+CONST uint ENVIRONMENT_NONE = 0u;
+CONST uint ENVIRONMENT_CONSTANT = 1u;
+CONST uint ENVIRONMENT_MAP = 2u;
+
+/// Light from infinity. The map's texels are vec4: radiance, and the probability of picking that texel.
+struct Environment {
+    vec3 scale;
+    uint kind;
+    vec2 rotation;  // cosine and sine of the turn about +Y
+    uvec2 size;
+    float pmf;  // of being picked among all lights
+};
+ASSERT_SIZE(Environment, 36);
+
+/// What stays the same for a whole render.
+struct RenderConstants {
+    Camera camera;
+    Environment environment;
+    uvec2 size;  // of the film, pixels
+    uint seed;
+    uint sampler;       // SAMPLER_…
+    uint sample_count;  // the total that a Hammersley set is laid out for
+    uint max_depth;     // scattering events
+    uint integrator;    // INTEGRATOR_…
+    uint brdf;          // BRDF_…
+    uint mis;           // MIS_…
+    uint light_count;
+    uint emissive_triangle_count;
+    uint punctual_light_count;
+};
+ASSERT_SIZE(RenderConstants, 144);
+
+CONST uint INTEGRATOR_BRDF = 0u;
+CONST uint INTEGRATOR_DIRECT = 1u;
+CONST uint INTEGRATOR_PATH = 2u;
+CONST uint BRDF_GGX = 0u;
+CONST uint BRDF_BLINN_PHONG = 1u;
+CONST uint MIS_POWER = 0u;
+CONST uint MIS_BALANCE = 1u;
+
+SHARED_END
+
+#endif
