@@ -1,7 +1,7 @@
 // What a pixel keeps. Sums are compensated (Neumaier 1974), so that they hold beyond 10^7 samples in fp32, and squares are taken
 // about the pixel's first sample, so that the variance of a constant pixel is exactly zero.
-#ifndef FILM_H
-#define FILM_H
+#ifndef FILM_PIXEL_H
+#define FILM_PIXEL_H
 
 #include "compat.h"
 

@@ -1,0 +1,19 @@
+// What a scene and its settings need, derived once.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace diptych {
+
+/// FEATURE_… bits (scene_features.h) that this render needs; every bit where settings.generic.
+std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings);
+
+/// The command line's names of the bits that are set, in the order of their list.
+std::vector<std::string> feature_names(std::uint32_t features);
+
+}  // namespace diptych

@@ -1,0 +1,32 @@
+// A backend's film on the host, and the images it becomes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "film_pixel.h"
+#include "image/layered_image.h"
+
+namespace diptych {
+
+/// Row-major from the top. `moments` and `first_hits` are empty where their layer was not asked for.
+struct Film {
+    int width = 0;
+    int height = 0;
+    std::vector<shared::FilmPixel> pixels;
+    std::vector<shared::FilmMoments> moments;
+    std::vector<shared::FilmFirstHit> first_hits;
+};
+
+struct FilmTotals {
+    std::uint64_t samples = 0;    // averaged, over all pixels
+    std::uint64_t nonfinite = 0;  // dropped
+    std::uint64_t rays = 0;
+};
+
+FilmTotals film_totals(const Film& film);
+
+/// Means, standard errors of the means, first-hit means; double inside. A pixel without samples is black.
+LayeredImage develop(const Film& film);
+
+}  // namespace diptych

@@ -1,0 +1,53 @@
+// One panel of the diptych, as the rest of the program sees it.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "render/film.h"
+
+namespace diptych {
+
+/// Seconds spent before the first sample, and bytes held.
+struct RendererCosts {
+    double build_seconds = 0;    // acceleration structures and uploads
+    double compile_seconds = 0;  // pipelines
+    std::uint64_t bytes = 0;     // buffers, acceleration structures, film
+};
+
+/// The same rays twice: inside the integrator, and alone.
+struct TraversalBench {
+    std::uint64_t rays = 0;
+    double integrator_seconds = 0;  // tracing and shading them
+    double bare_seconds = 0;        // tracing them again, nothing else
+};
+
+class Renderer {
+public:
+    Renderer() = default;
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+    virtual ~Renderer() = default;
+
+    /// "cpu" or "vulkan".
+    virtual std::string backend() const = 0;
+    /// The device's own name.
+    virtual std::string device() const = 0;
+    virtual RendererCosts costs() const = 0;
+
+    /// Adds samples first .. first+count-1 to every pixel. Stops early, between slices of at most about 200 ms, once `cancel` is
+    /// set; the film is valid then too, since every pixel counts its own samples.
+    virtual void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) = 0;
+
+    /// Seconds the device itself worked on `render` calls so far: timestamps on a GPU, wall clock on the CPU.
+    virtual double device_seconds() const = 0;
+
+    /// A copy of what has been accumulated.
+    virtual Film film() const = 0;
+
+    /// Measures `samples` samples a pixel, leaving the film alone.
+    virtual TraversalBench bench_traversal(std::uint32_t samples) = 0;
+};
+
+}  // namespace diptych
