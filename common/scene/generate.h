@@ -1,0 +1,34 @@
+// The scenes that the project makes itself. Each is a pure function of its options.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace diptych {
+
+struct GenerateOptions {
+    std::uint64_t count = 1000;  // many-lights: how many emitters
+    std::uint32_t seed = 1;      // many-lights: which street
+};
+
+struct GeneratedScene {
+    Scene scene;
+    std::string recommended_arguments;  // for `diptych render`, beside the file: what glTF cannot hold
+};
+
+struct SceneGenerator {
+    const char* name;
+    const char* description;  // one line
+    GeneratedScene (*generate)(const GenerateOptions& options);
+};
+
+/// All of them, in the order to list them.
+std::span<const SceneGenerator> scene_generators();
+
+/// Throws Error, listing the names, where none is called `name`.
+GeneratedScene generate_scene(const std::string& name, const GenerateOptions& options = {});
+
+}  // namespace diptych

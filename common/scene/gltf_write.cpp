@@ -1,0 +1,316 @@
+#include "scene/gltf_write.h"
+
+#include "error.h"
+#include "scene/gltf_json.h"
+#include "scene/png_encode.h"
+
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace diptych {
+namespace {
+
+using gltf::Json;
+
+/// A top-level array, kept as text, one element a line: a million nodes cost their characters, and files diff by
+/// object.
+struct JsonList {
+    std::string text;
+    int size = 0;
+
+    int add(const Json& element) {
+        text += size == 0 ? "\n  " : ",\n  ";
+        text += element.dump();
+        return size++;
+    }
+};
+
+struct Document {
+    std::vector<char> bytes;
+    JsonList accessors, views, images, samplers, textures, materials, meshes, cameras, lights, nodes;
+    std::set<std::string> extensions;
+};
+
+enum ViewTarget { no_target = 0, vertex_target = 34962, index_target = 34963 };
+enum ComponentType { type_uint16 = 5123, type_uint32 = 5125, type_float = 5126 };
+
+int add_view(Document& document, const void* data, std::size_t size, ViewTarget target) {
+    auto& bytes = document.bytes;
+    bytes.resize((bytes.size() + 3) / 4 * 4);
+    Json view = {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", size}};
+    if (target != no_target)
+        view["target"] = int(target);
+    const auto* first = static_cast<const char*>(data);
+    bytes.insert(bytes.end(), first, first + size);
+    return document.views.add(view);
+}
+
+template <typename Vector>
+int add_attribute(Document& document, const std::vector<Vector>& values, bool with_bounds) {
+    const int view = add_view(document, values.data(), values.size() * sizeof(Vector), vertex_target);
+    Json accessor = {{"bufferView", view},
+                     {"componentType", int(type_float)},
+                     {"count", values.size()},
+                     {"type", "VEC" + std::to_string(Vector::length())}};
+    if (with_bounds) {
+        Vector low = values.front(), high = values.front();
+        for (const Vector& value : values) {
+            low = glm::min(low, value);
+            high = glm::max(high, value);
+        }
+        accessor["min"] = gltf::json_vector(low);
+        accessor["max"] = gltf::json_vector(high);
+    }
+    return document.accessors.add(accessor);
+}
+
+int add_indices(Document& document, const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
+    const std::size_t count = 3 * triangles.size();
+    const bool is_short = vertices < 65535;
+    int view = 0;
+    if (is_short) {
+        std::vector<std::uint16_t> indices;
+        indices.reserve(count);
+        for (const glm::uvec3& t : triangles)
+            for (int i = 0; i < 3; ++i)
+                indices.push_back(std::uint16_t(t[i]));
+        view = add_view(document, indices.data(), 2 * count, index_target);
+    } else {
+        view = add_view(document, triangles.data(), 4 * count, index_target);
+    }
+    return document.accessors.add({{"bufferView", view},
+                                   {"componentType", int(is_short ? type_uint16 : type_uint32)},
+                                   {"count", count},
+                                   {"type", "SCALAR"}});
+}
+
+Json add_primitive(Document& document, const Primitive& primitive) {
+    Json attributes = {{"POSITION", add_attribute(document, primitive.positions, true)}};
+    if (!primitive.normals.empty())
+        attributes["NORMAL"] = add_attribute(document, primitive.normals, false);
+    if (!primitive.tangents.empty())
+        attributes["TANGENT"] = add_attribute(document, primitive.tangents, false);
+    for (std::size_t set = 0; set < primitive.uvs.size(); ++set)
+        if (!primitive.uvs[set].empty())
+            attributes["TEXCOORD_" + std::to_string(set)] = add_attribute(document, primitive.uvs[set], false);
+    if (!primitive.colors.empty())
+        attributes["COLOR_0"] = add_attribute(document, primitive.colors, false);
+    Json out = {{"attributes", attributes},
+                {"indices", add_indices(document, primitive.triangles, primitive.positions.size())}};
+    if (primitive.material != none)
+        out["material"] = primitive.material;
+    return out;
+}
+
+void add_mesh(Document& document, const Mesh& mesh, const std::string& file) {
+    Json out;
+    if (!mesh.name.empty())
+        out["name"] = mesh.name;
+    Json primitives = Json::array();
+    for (const Primitive& primitive : mesh.primitives) {
+        if (primitive.triangles.empty() || primitive.positions.empty())
+            throw Error(file + ": mesh '" + mesh.name + "': a primitive has no triangles");
+        primitives.push_back(add_primitive(document, primitive));
+    }
+    if (primitives.empty())
+        throw Error(file + ": mesh '" + mesh.name + "': it has no primitives");
+    out["primitives"] = primitives;
+    document.meshes.add(out);
+}
+
+void add_texture(Document& document, const Texture& texture) {
+    const auto wrap = [](Wrap mode) { return mode == Wrap::repeat ? 10497 : mode == Wrap::clamp ? 33071 : 33648; };
+    const int filter = texture.filter == Filter::linear ? 9729 : 9728;
+    const int sampler = document.samplers.add({{"magFilter", filter},
+                                               {"minFilter", filter},
+                                               {"wrapS", wrap(texture.wrap_u)},
+                                               {"wrapT", wrap(texture.wrap_v)}});
+    Json out;
+    if (!texture.name.empty())
+        out["name"] = texture.name;
+    out["sampler"] = sampler;
+    if (texture.image != none)
+        out["source"] = texture.image;
+    document.textures.add(out);
+}
+
+Json named_node(const std::string& name, const glm::dmat4& to_world) {
+    Json node;
+    if (!name.empty())
+        node["name"] = name;
+    gltf::place(node, to_world);
+    return node;
+}
+
+void add_nodes(Document& document, const Scene& scene) {
+    for (const Camera& camera : scene.cameras) {
+        Json node = named_node(camera.name, camera.camera_to_world);
+        node["camera"] = document.cameras.add(gltf::json_camera(camera));
+        document.nodes.add(node);
+    }
+    for (const PunctualLight& light : scene.lights) {
+        Json node = named_node(light.name, light.light_to_world);
+        node["extensions"]["KHR_lights_punctual"]["light"] = document.lights.add(gltf::json_light(light));
+        document.nodes.add(node);
+        document.extensions.insert("KHR_lights_punctual");
+    }
+    for (const Instance& instance : scene.instances) {
+        Json node = named_node(instance.name, instance.object_to_world);
+        if (instance.mesh != none)
+            node["mesh"] = instance.mesh;
+        document.nodes.add(node);
+    }
+}
+
+std::string file_part(std::string name) {
+    for (char& c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_')
+            c = '-';
+    return name;
+}
+
+/// A relative reference (RFC 3986): everything outside the unreserved characters as %XX.
+std::string encoded_uri(const std::string& name) {
+    std::string out;
+    for (const char c : name) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("-_.~", c) != nullptr) {
+            out += c;
+        } else {
+            constexpr const char* digits = "0123456789ABCDEF";
+            const auto byte = static_cast<unsigned char>(c);
+            out += {'%', digits[byte >> 4U], digits[byte & 15U]};
+        }
+    }
+    return out;
+}
+
+void write_whole(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces) {
+    std::filesystem::path temporary = path;
+    temporary += ".tmp";
+    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+    for (const std::string_view piece : pieces)
+        file.write(piece.data(), std::streamsize(piece.size()));
+    file.close();
+    std::error_code error;
+    if (file)
+        std::filesystem::rename(temporary, path, error);
+    if (!file || error) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw Error(path.string() + ": cannot be written" + (error ? ": " + error.message() : ""));
+    }
+}
+
+std::string_view view_of(const std::vector<std::uint8_t>& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void add_image(Document& document, const TextureImage& image, const std::filesystem::path& path, bool binary) {
+    const std::vector<std::uint8_t> png = encode_png(image);
+    const std::string name = image.name.empty() ? std::to_string(document.images.size) : image.name;
+    if (binary) {
+        const int view = add_view(document, png.data(), png.size(), no_target);
+        document.images.add({{"name", name}, {"mimeType", "image/png"}, {"bufferView", view}});
+    } else {
+        const std::string file = path.stem().string() + "-" + file_part(name) + ".png";
+        write_whole(path.parent_path() / file, {view_of(png)});
+        document.images.add({{"name", name}, {"uri", encoded_uri(file)}});
+    }
+}
+
+std::string document_text(const Document& document, const Scene& scene, const std::string& bin_uri) {
+    std::string out = "{\n\"asset\": " + Json{{"version", "2.0"}, {"generator", "Diptych"}}.dump();
+    if (!document.extensions.empty())
+        out += ",\n\"extensionsUsed\": " + Json(document.extensions).dump();
+    if (document.lights.size != 0)
+        out += ",\n\"extensions\": {\"KHR_lights_punctual\": {\"lights\": [" + document.lights.text + "\n]}}";
+    Json root;
+    if (!scene.name.empty())
+        root["name"] = scene.name;
+    if (scene.environment.kind == Environment::Kind::constant)
+        root["extras"]["diptych"]["environment"] = gltf::json_vector(scene.environment.scale);
+    std::string node_list = "[";
+    for (int i = 0; i < document.nodes.size; ++i)
+        node_list += (i == 0 ? "" : ",") + std::to_string(i);
+    std::string root_text = root.is_null() ? "{" : root.dump();
+    if (!root.is_null())
+        root_text.back() = ',';
+    if (document.nodes.size == 0 && !root.is_null())
+        root_text.back() = '}';
+    else if (document.nodes.size == 0)
+        root_text += "}";
+    else
+        root_text += "\"nodes\":" + node_list + "]}";
+    out += ",\n\"scene\": 0,\n\"scenes\": [" + root_text + "]";
+    const std::pair<const char*, const JsonList*> lists[] = {
+        {"nodes", &document.nodes},         {"cameras", &document.cameras},     {"meshes", &document.meshes},
+        {"materials", &document.materials}, {"textures", &document.textures},   {"samplers", &document.samplers},
+        {"images", &document.images},       {"accessors", &document.accessors}, {"bufferViews", &document.views}};
+    for (const auto& [name, list] : lists)
+        if (list->size != 0)
+            out += ",\n\"" + std::string(name) + "\": [" + list->text + "\n]";
+    if (!document.bytes.empty()) {
+        Json buffer;
+        if (!bin_uri.empty())
+            buffer["uri"] = bin_uri;
+        buffer["byteLength"] = document.bytes.size();
+        out += ",\n\"buffers\": [" + buffer.dump() + "]";
+    }
+    return out + "\n}\n";
+}
+
+/// The container of glTF 2.0, section 4.4: a header and two chunks, little-endian, each padded to four bytes.
+void write_glb(const std::filesystem::path& path, Document& document, std::string json) {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    document.bytes.resize((document.bytes.size() + 3) / 4 * 4);
+    const std::uint64_t bin_part = document.bytes.empty() ? 0 : 8 + document.bytes.size();
+    const std::uint64_t total = 12 + 8 + json.size() + bin_part;
+    if (total > std::numeric_limits<std::uint32_t>::max())
+        throw Error(path.string() + ": more than 4 GiB do not fit a .glb; write a .gltf");
+    const auto words = [](std::initializer_list<std::uint64_t> values) {
+        std::string out;
+        for (const std::uint64_t value : values)
+            for (unsigned shift = 0; shift < 32; shift += 8)
+                out += char(value >> shift & 0xffU);
+        return out;
+    };
+    const std::string header = words({0x46546c67, 2, total, json.size(), 0x4e4f534a});
+    const std::string bin_header = document.bytes.empty() ? "" : words({document.bytes.size(), 0x004e4942});
+    write_whole(path, {header, json, bin_header, {document.bytes.data(), document.bytes.size()}});
+}
+
+}  // namespace
+
+void write_gltf(const Scene& scene, const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
+    const bool binary = extension == ".glb";
+    if (!binary && extension != ".gltf")
+        throw Error(path.string() + ": a glTF file ends in .gltf or .glb");
+
+    Document document;
+    for (const TextureImage& image : scene.images)
+        add_image(document, image, path, binary);
+    for (const Texture& texture : scene.textures)
+        add_texture(document, texture);
+    for (const Material& material : scene.materials)
+        document.materials.add(gltf::json_material(material, document.extensions));
+    for (const Mesh& mesh : scene.meshes)
+        add_mesh(document, mesh, path.string());
+    add_nodes(document, scene);
+
+    if (binary) {
+        write_glb(path, document, document_text(document, scene, ""));
+        return;
+    }
+    const std::string bin = path.stem().string() + ".bin";
+    if (!document.bytes.empty())
+        write_whole(path.parent_path() / bin, {std::string_view(document.bytes.data(), document.bytes.size())});
+    const std::string json = document_text(document, scene, encoded_uri(bin));
+    write_whole(path, {json});
+}
+
+}  // namespace diptych
