@@ -32,8 +32,9 @@ missing_packages() {
         command -v "${entry%%:*}" >/dev/null || echo "${entry##*:}"
     done
     command -v "${CXX:-c++}" >/dev/null || echo g++
-    for entry in libembree-dev libtbb-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libopenimageio-dev libcli11-dev \
-        libfmt-dev libspdlog-dev libvulkan-dev libvulkan1 catch2; do
+    # openimageio-tools: Debian's CMake files for the library insist on the programs.
+    for entry in libembree-dev libtbb-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libopenimageio-dev \
+        openimageio-tools libcli11-dev libfmt-dev libspdlog-dev libvulkan-dev libvulkan1 catch2; do
         has_package "$entry" || echo "$entry"
     done
 }
@@ -57,19 +58,19 @@ backports_source() {
         --format '$(REPO_URI)' | head -n 1)"
     uri="${uri%/}"
     [ -n "$uri" ] || return 1
-    cat /etc/apt/sources.list.d/*.sources 2>/dev/null | sed '/^#/d' | awk -v RS= -v suite="$suite" -v uri="$uri" '
+    { cat /etc/apt/sources.list.d/*.sources 2>/dev/null || true; } | awk -v RS= -v suite="$suite" -v uri="$uri" '
         index($0, uri) && !/\nEnabled: *no/ && $0 ~ "(^|\n)Suites:[^\n]*[ \t]" suite "([ \t\n]|$)" {
             lines = split($0, line, "\n")
             for (i = 1; i <= lines; ++i) {
                 if (line[i] !~ /^[ \t]/) replaced = line[i] ~ /^(Suites|Components|Types):/
-                if (!replaced) print line[i]
+                if (!replaced && line[i] !~ /^#/) print line[i]
             }
             print "Types: deb\nSuites: " suite "-backports\nComponents: main"
             found = 1
             exit
         }
         END { exit !found }' && return 0
-    cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | awk -v suite="$suite" -v uri="$uri" '
+    { cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null || true; } | awk -v suite="$suite" -v uri="$uri" '
         $1 == "deb" && index($0, uri) && $0 ~ "[ \t]" suite "[ \t]" {
             print "Types: deb\nURIs: " uri "\nSuites: " suite "-backports\nComponents: main"
             if (match($0, /\[[^]]*\]/)) {
@@ -127,7 +128,8 @@ install_mesa_from_backports() {
     if [ -z "$(apt-get indextargets "Release: $suite-backports" --format '$(REPO_URI)')" ]; then
         text="$(backports_source "$suite")" || return 1
         say "adding $file: Debian 12's own Mesa has no ray tracing on the CPU, its backports do"
-        printf "# Added by Diptych, for Mesa with ray tracing on the CPU.\n%s\n" "$text" | "${as_root[@]}" tee "$file" >/dev/null || return 1
+        text="# Added by Diptych, for Mesa with ray tracing on the CPU."$'\n'"$text"
+        printf '%s\n' "$text" | "${as_root[@]}" tee "$file" >/dev/null || return 1
         apt_get update || return 1
     fi
     say "installing Debian packages for a Vulkan device with ray tracing on the CPU: mesa-vulkan-drivers ($suite-backports)"
