@@ -32,9 +32,8 @@ missing_packages() {
         command -v "${entry%%:*}" >/dev/null || echo "${entry##*:}"
     done
     command -v "${CXX:-c++}" >/dev/null || echo g++
-    # openimageio-tools: Debian's CMake files for the library insist on the programs.
     for entry in libembree-dev libtbb-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libopenimageio-dev \
-        openimageio-tools libcli11-dev libfmt-dev libspdlog-dev libvulkan-dev libvulkan1 catch2; do
+        libcli11-dev libfmt-dev libspdlog-dev libvulkan-dev libvulkan1 catch2; do
         has_package "$entry" || echo "$entry"
     done
 }
@@ -132,8 +131,10 @@ install_mesa_from_backports() {
         printf '%s\n' "$text" | "${as_root[@]}" tee "$file" >/dev/null || return 1
         apt_get update || return 1
     fi
-    say "installing Debian packages for a Vulkan device with ray tracing on the CPU: mesa-vulkan-drivers ($suite-backports)"
-    apt_get install --no-install-recommends -t "$suite-backports" mesa-vulkan-drivers
+    # The EGL and GLX halves keep Mesa of one version, or Debian's own could no longer be installed beside it.
+    say "installing from $suite-backports for a Vulkan device with ray tracing on the CPU: mesa-vulkan-drivers, libegl-mesa0," \
+        "libglx-mesa0"
+    apt_get install --no-install-recommends -t "$suite-backports" mesa-vulkan-drivers libegl-mesa0 libglx-mesa0
 }
 
 # diptych_setup [EXTRA_PACKAGE...]: everything the build and a render need.
