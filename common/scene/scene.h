@@ -14,6 +14,9 @@
 
 namespace diptych {
 
+/// What Environment::kind says; stands before the constant `none`, which its enumerator would shadow otherwise.
+enum class EnvironmentKind { none, constant, map };
+
 /// Index of nothing, in every table of the scene.
 inline constexpr int none = -1;
 
@@ -118,7 +121,7 @@ struct PunctualLight {
 /// Light from infinity. Radiance is `scale` times 1 (constant) or times the map, an equirectangular image whose centre looks
 /// along -Z before `rotation` (radians, counter-clockwise about +Y seen from above) and whose top row is +Y.
 struct Environment {
-    enum class Kind { none, constant, map };
+    using Kind = EnvironmentKind;
     Kind kind = Kind::none;
     glm::vec3 scale{1};
     double rotation = 0;
