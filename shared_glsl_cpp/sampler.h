@@ -1,0 +1,139 @@
+// Random numbers as a pure function of (pixel, sample, dimension, seed), so that any sample can be replayed alone.
+// Every word is uniform over seeds, so each kind is unbiased by its randomisation.
+#ifndef SAMPLER_H
+#define SAMPLER_H
+
+#include "dimensions.h"
+#include "rng.h"
+
+SHARED_BEGIN
+
+CONST uint SAMPLER_INDEPENDENT = 0u;
+CONST uint SAMPLER_HAMMERSLEY = 1u;  // film and lens only; the rest is independent
+CONST uint SAMPLER_SOBOL = 2u;       // dimensions below SOBOL_MAX_DIMENSION; the rest is independent
+
+CONST uint SOBOL_MAX_DIMENSION = 100u;  // camera and eight vertices
+CONST uint HAMMERSLEY_MAX_COUNT = 1u << 23;
+
+struct Sampler {
+    uvec2 pixel;
+    uint sample_index;
+    uint seed;
+    uint kind;          // SAMPLER_…
+    uint sample_count;  // of the Hammersley set
+};
+
+FN uvec2 independent_bits_2d(IN(Sampler) s, uint dimension) {
+    uvec4 v = pcg4d(uvec4(s.pixel.x, s.pixel.y, s.sample_index, dimension ^ hash_word(s.seed + 0x9e3779b9u)));
+    return uvec2(v.z, v.w);
+}
+
+/// Four words that stay the same for all samples of a pixel's dimension; `purpose` tells uses apart.
+FN uvec4 pixel_words(IN(Sampler) s, uint dimension, uint purpose) {
+    return pcg4d(uvec4(s.pixel.x, s.pixel.y, hash_combine(purpose, dimension), hash_word(s.seed + 0x9e3779b9u)));
+}
+
+/// (i + 1/2)/n as a 32-bit fraction, rounded down, by long division; i < n <= HAMMERSLEY_MAX_COUNT.
+FN uint stratum_center_bits(uint i, uint n) {
+    uint divisor = 2u * n;
+    uint remainder = 2u * i + 1u;
+    uint bits = 0u;
+    for (uint digit = 0u; digit < 4u; digit++) {
+        uint shifted = remainder << 8;
+        uint quotient = shifted / divisor;
+        bits = (bits << 8) | quotient;
+        remainder = shifted - quotient * divisor;
+    }
+    return bits;
+}
+
+/// A permutation of 0 .. n-1 that depends on `key`: invertible steps on the least power of two, walked until inside
+/// (Kensler 2013, "Correlated Multi-Jittered Sampling").
+FN uint permute_index(uint i, uint n, uint key) {
+    uint mask = n - 1u;
+    mask |= mask >> 1;
+    mask |= mask >> 2;
+    mask |= mask >> 4;
+    mask |= mask >> 8;
+    mask |= mask >> 16;
+    uint x = i;
+    do {
+        x = (x * (key | 1u) + (key >> 16)) & mask;
+        x = x ^ (x >> 3);
+        x = (x * 0x7feb352du + (key >> 5)) & mask;
+        x = x ^ (x >> 7);
+        x = (x * ((key >> 11) | 1u) + key) & mask;
+        x = x ^ (x >> 2);
+        x = (x * 0x846ca68bu) & mask;
+        x = x ^ (x >> 5);
+    } while (x >= n);
+    return x;
+}
+
+/// Point i of the set (i/n, radical inverse of i), shifted on the torus per pixel (Cranley & Patterson 1976). The lens takes
+/// the same set in another order.
+FN uvec2 hammersley_bits_2d(IN(Sampler) s, uint dimension) {
+    uvec4 words = pixel_words(s, dimension, 0x48616d6du);
+    uint i = s.sample_index;
+    if (dimension != DIMENSION_FILM) {
+        i = permute_index(i, s.sample_count, words.z);
+    }
+    return uvec2(words.x + stratum_center_bits(i, s.sample_count), words.y + bitfieldReverse(i));
+}
+
+/// Owen scrambling of a bit-reversed word: each bit is flipped by a hash of the bits below it (Laine & Karras 2011, with the
+/// constants of Vegdahl 2021, "Building a Better LK Hash").
+FN uint owen_scramble_reversed(uint x, uint key) {
+    x = x ^ (x * 0x3d20adeau);
+    x += key;
+    x *= (key >> 16) | 1u;
+    x = x ^ (x * 0x05526c56u);
+    return x ^ (x * 0x53a22864u);
+}
+
+/// The second Sobol' dimension of index i, bit-reversed: Pascal's triangle mod 2 as five butterflies.
+FN uint sobol_second_reversed(uint i) {
+    i = i ^ (i >> 16);
+    i = i ^ ((i >> 8) & 0x00ff00ffu);
+    i = i ^ ((i >> 4) & 0x0f0f0f0fu);
+    i = i ^ ((i >> 2) & 0x33333333u);
+    return i ^ ((i >> 1) & 0x55555555u);
+}
+
+/// A (0,2)-sequence, Owen-scrambled, its order shuffled by pixel and pair of dimensions (Burley 2020, "Practical Hash-based
+/// Owen Scrambling").
+FN uvec2 sobol_bits_2d(IN(Sampler) s, uint dimension) {
+    uvec4 words = pixel_words(s, dimension, 0x536f626fu);
+    uint i = bitfieldReverse(owen_scramble_reversed(bitfieldReverse(s.sample_index), words.z));
+    uint first = owen_scramble_reversed(i, words.x);
+    uint second = owen_scramble_reversed(sobol_second_reversed(i), words.y);
+    return uvec2(bitfieldReverse(first), bitfieldReverse(second));
+}
+
+/// Words for dimensions `dimension` (even) and the one after.
+FN uvec2 sample_bits_2d(IN(Sampler) s, uint dimension) {
+    if (s.kind == SAMPLER_SOBOL && dimension < SOBOL_MAX_DIMENSION) {
+        return sobol_bits_2d(s, dimension);
+    }
+    if (s.kind == SAMPLER_HAMMERSLEY && dimension < DIMENSION_VERTEX && s.sample_index < s.sample_count &&
+        s.sample_count <= HAMMERSLEY_MAX_COUNT) {
+        return hammersley_bits_2d(s, dimension);
+    }
+    return independent_bits_2d(s, dimension);
+}
+
+/// [0, 1)^2, multiples of 2^-24.
+FN vec2 sample_2d(IN(Sampler) s, uint dimension) {
+    uvec2 bits = sample_bits_2d(s, dimension);
+    return vec2(unit_float(bits.x), unit_float(bits.y));
+}
+
+/// The first of sample_2d's two.
+FN float sample_1d(IN(Sampler) s, uint dimension) {
+    uvec2 bits = sample_bits_2d(s, dimension);
+    return unit_float(bits.x);
+}
+
+SHARED_END
+
+#endif

@@ -1,0 +1,183 @@
+// Points on a triangle x = v0 + b_1 e1 + b_2 e2, seen from a reference point. Both faces count: facing is the caller's to check.
+#ifndef TRIANGLE_SAMPLING_H
+#define TRIANGLE_SAMPLING_H
+
+#include "elementary.h"
+
+SHARED_BEGIN
+
+CONST float SPHERICAL_TRIANGLE_MIN = 3e-4f;  // sr; smaller ones look flat, and directions lose digits
+CONST float SPHERICAL_TRIANGLE_MAX = 6.22f;  // sr; larger ones, close to the half space, lose digits too
+
+struct TriangleSample {
+    vec2 barycentrics;  // of the second and third vertex
+    float pdf;          // by solid angle; 0: no sample
+};
+
+/// Uniform by area: barycentrics of the second and third vertex, both >= 0 with a sum below 1 for u in [0, 1)^2.
+/// Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
+FN vec2 sample_triangle(vec2 u) {
+    if (u.y > u.x) {
+        float half_x = 0.5f * u.x;
+        return vec2(half_x, u.y - half_x);
+    }
+    float half_y = 0.5f * u.y;
+    return vec2(u.x - half_y, half_y);
+}
+
+/// The triangle as seen from the reference point, scaled so that no coordinate passes 1: pdfs and angles do not change.
+struct TriangleView {
+    vec3 a;  // to the vertices
+    vec3 b;
+    vec3 c;
+    vec3 e1;
+    vec3 e2;
+    float volume;  // a . (e1 x e2): six times that of the tetrahedron, signed
+    float solid_angle;
+    float scale;
+};
+
+FN float largest_magnitude(vec3 v) { return max_component(abs(v)); }
+
+/// e1 x e2 by the two shortest edges, which loses fewest digits on a needle.
+FN vec3 triangle_cross(vec3 e1, vec3 e2) {
+    PRECISE vec3 e3 = e2 - e1;
+    float length_1 = dot(e1, e1);
+    float length_2 = dot(e2, e2);
+    float length_3 = dot(e3, e3);
+    bool first_longest = length_1 >= length_2 && length_1 >= length_3;
+    bool second_longest = !first_longest && length_2 >= length_3;
+    vec3 p = first_longest ? e2 : e1;
+    vec3 q = first_longest || second_longest ? e3 : e2;
+    PRECISE vec3 n = vec3(p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x);
+    return n;
+}
+
+/// Solid angle by Van Oosterom & Strackee 1983, with the numerator from the edges: unit vectors would cancel.
+FN TriangleView triangle_view(vec3 reference, vec3 v0, vec3 e1, vec3 e2) {
+    TriangleView view;
+    PRECISE vec3 a = v0 - reference;
+    float extent = max(largest_magnitude(a), max(largest_magnitude(e1), largest_magnitude(e2)));
+    float scale = extent > 0.0f ? 0.5f / extent : 0.0f;
+    view.scale = scale;
+    view.a = a * scale;
+    view.e1 = e1 * scale;
+    view.e2 = e2 * scale;
+    PRECISE vec3 b = view.a + view.e1;
+    PRECISE vec3 c = view.a + view.e2;
+    view.b = b;
+    view.c = c;
+    vec3 n = triangle_cross(view.e1, view.e2);
+    PRECISE float volume = view.a.x * n.x + view.a.y * n.y + view.a.z * n.z;
+    float length_a = length(view.a);
+    float length_b = length(b);
+    float length_c = length(c);
+    PRECISE float denominator = length_a * length_b * length_c + dot(view.a, b) * length_c + dot(view.a, c) * length_b +
+                                dot(b, c) * length_a;
+    view.volume = volume;
+    view.solid_angle = 2.0f * arctan2(abs(volume), denominator);
+    return view;
+}
+
+FN bool samples_spherically(IN(TriangleView) view) {
+    return view.solid_angle >= SPHERICAL_TRIANGLE_MIN && view.solid_angle <= SPHERICAL_TRIANGLE_MAX;
+}
+
+/// In [0, 2 pi]; 0 for a degenerate triangle and from within its plane, outside it.
+FN float solid_angle_triangle(vec3 reference, vec3 v0, vec3 e1, vec3 e2) {
+    TriangleView view = triangle_view(reference, v0, e1, e2);
+    return view.solid_angle;
+}
+
+/// Uniform by area, by solid angle: r^2/(A |cos|), where |cos| A = |a . n|/(2 r). `to_point` in the view's scale.
+FN float pdf_triangle_area_solid_angle(IN(TriangleView) view, vec3 to_point) {
+    float height = abs(view.volume);
+    float r_squared = dot(to_point, to_point);
+    if (!(height > 1e-30f)) {
+        return 0.0f;
+    }
+    return min(2.0f * r_squared * sqrt(r_squared) / height, 8.0e37f);
+}
+
+/// The pdf that sample_triangle_solid_angle has for this point of the triangle, from the same reference point.
+FN float pdf_triangle_solid_angle(vec3 reference, vec3 v0, vec3 e1, vec3 e2, vec3 point_on_triangle) {
+    TriangleView view = triangle_view(reference, v0, e1, e2);
+    if (samples_spherically(view)) {
+        return 1.0f / view.solid_angle;
+    }
+    return pdf_triangle_area_solid_angle(view, (point_on_triangle - reference) * view.scale);
+}
+
+/// v without its part along the unit vector `axis`, of unit length; zero where nothing is left.
+FN vec3 unit_orthogonal(vec3 v, vec3 axis) {
+    vec3 rest = v - dot(v, axis) * axis;
+    float squared = dot(rest, rest);
+    return squared > 0.0f ? rest / sqrt(squared) : vec3(0.0f, 0.0f, 0.0f);
+}
+
+/// A unit direction, uniform over the spherical triangle. Arvo 1995, "Stratified Sampling of Spherical Triangles", with both
+/// inversions in half angles, which keep their digits on small triangles: the arc from A to C' by the excess E of ABC',
+/// tan(b'/2) = sin(E/2)/(tan(c/2) sin(alpha - E/2)), and the arc t from B by sin^2(t/2) = u_y sin^2(BC'/2).
+FN vec3 sample_spherical_triangle(IN(TriangleView) view, vec2 u) {
+    vec3 a = normalize(view.a);
+    vec3 b = normalize(view.b);
+    vec3 c = normalize(view.c);
+    vec3 toward_b = unit_orthogonal(b - a, a);
+    vec3 toward_c = unit_orthogonal(c - a, a);
+    float alpha = arctan2(abs(dot(a, cross(toward_b, toward_c))), dot(toward_b, toward_c));
+    float tan_half_c = length(b - a) / max(length(b + a), 1e-20f);
+    float half_excess = 0.5f * u.x * view.solid_angle;
+    float sin_half;
+    float cos_half;
+    sin_cos(half_excess, sin_half, cos_half);
+    float sin_rest;
+    float cos_rest;
+    sin_cos(alpha - half_excess, sin_rest, cos_rest);
+    float tan_half_b = sin_half / max(tan_half_c * sin_rest, 1e-20f);
+    float tan_squared = tan_half_b * tan_half_b;
+    vec3 c_new = ((1.0f - tan_squared) * a + 2.0f * tan_half_b * toward_c) / (1.0f + tan_squared);
+    vec3 chord = c_new - b;
+    float sin_half_squared = min(0.25f * u.y * dot(chord, chord), 1.0f);
+    float sine = 2.0f * safe_sqrt(sin_half_squared * (1.0f - sin_half_squared));
+    return (1.0f - 2.0f * sin_half_squared) * b + sine * unit_orthogonal(chord, b);
+}
+
+/// Where the direction meets the triangle: its weights on the three vertices are in proportion to the volumes that it spans
+/// with the opposite edges. Clamped to the triangle; x < 0 where it does not meet the plane.
+FN vec2 barycentrics_along(IN(TriangleView) view, vec3 direction) {
+    float side = view.volume < 0.0f ? -1.0f : 1.0f;
+    float weight_a = max(side * dot(direction, cross(view.b, view.e2 - view.e1)), 0.0f);
+    float weight_b = max(side * dot(direction, cross(view.e2, view.a)), 0.0f);
+    float weight_c = max(side * dot(direction, cross(view.a, view.e1)), 0.0f);
+    float sum = weight_a + weight_b + weight_c;
+    if (!(sum > 0.0f)) {
+        return vec2(-1.0f, -1.0f);
+    }
+    float b_1 = weight_b / sum;
+    return vec2(b_1, min(weight_c / sum, 1.0f - b_1));
+}
+
+/// A point on the triangle: by solid angle where that is between SPHERICAL_TRIANGLE_MIN and _MAX, else by area. pdf 0 for
+/// degenerate triangles and from within the plane.
+FN TriangleSample sample_triangle_solid_angle(vec3 reference, vec3 v0, vec3 e1, vec3 e2, vec2 u) {
+    TriangleView view = triangle_view(reference, v0, e1, e2);
+    TriangleSample result;
+    if (samples_spherically(view)) {
+        vec3 direction = sample_spherical_triangle(view, u);
+        result.barycentrics = barycentrics_along(view, direction);
+        result.pdf = 1.0f / view.solid_angle;
+        if (!(result.barycentrics.x >= 0.0f)) {
+            result.barycentrics = vec2(0.0f, 0.0f);
+            result.pdf = 0.0f;
+        }
+        return result;
+    }
+    result.barycentrics = sample_triangle(u);
+    vec3 to_point = view.a + result.barycentrics.x * view.e1 + result.barycentrics.y * view.e2;
+    result.pdf = pdf_triangle_area_solid_angle(view, to_point);
+    return result;
+}
+
+SHARED_END
+
+#endif
