@@ -1,0 +1,174 @@
+// glTF 2.0's metallic-roughness surface as one sample / eval / pdf triple over either microfacet model, reflection
+// only:
+//   f = diffuse/pi (1 - F) + F D G2 / (4 cos_o cos_i),  F = F(o·h)   (glTF 2.0, appendix B.3; KHR_materials_specular)
+// Directions are local: unit, shading normal = +z, leaving the surface. `features` are the bits of scene_features.h
+// that may be needed; with a bit off its code is dropped, and surfaces that do not need it come out the same.
+#ifndef BSDF_H
+#define BSDF_H
+
+#include "blinn_phong.h"
+#include "fresnel.h"
+#include "ggx.h"
+#include "sampling.h"
+#include "scene_features.h"
+#include "scene_types.h"
+
+SHARED_BEGIN
+
+CONST float ALPHA_MIRROR = 1.0e-4f;  // below: a perfect mirror
+CONST float COS_MIN = 1.0e-7f;       // directions up to here are under the horizon, for sample, eval and pdf alike
+CONST float LOBE_MIN = 0.1f;         // the least probability of a lobe that can reflect
+
+struct BsdfParameters {
+    vec3 diffuse;  // base color (1 - metallic)
+    vec3 f0;
+    vec3 f90;
+    float alpha;  // roughness^2
+    uint model;   // BRDF_...
+};
+
+struct BsdfSample {
+    vec3 direction;  // unit; its meaning is void where pdf is 0
+    vec3 weight;     // f cos / pdf
+    float pdf;       // per steradian; 0 for a null sample; of a delta, the discrete probability
+    uint delta;      // 1: a perfect mirror
+};
+
+/// f cos and the pdf of one pair of directions.
+struct BsdfValue {
+    vec3 value;
+    float pdf;
+};
+
+/// `f0_dielectric` by dielectric_f0; `specular` and `specular_color` as in KHR_materials_specular.
+FN BsdfParameters bsdf_parameters(vec3 base_color, float metallic, float roughness, float f0_dielectric, float specular,
+                                  vec3 specular_color, uint model) {
+    BsdfParameters p;
+    float m = clamp(metallic, 0.0f, 1.0f);
+    float r = clamp(roughness, 0.0f, 1.0f);
+    vec3 f0 = min(f0_dielectric * specular_color, vec3(1.0f, 1.0f, 1.0f)) * specular;
+    p.diffuse = base_color * (1.0f - m);
+    p.f0 = mix(f0, base_color, m);
+    p.f90 = mix(vec3(specular, specular, specular), vec3(1.0f, 1.0f, 1.0f), m);
+    p.alpha = r * r;
+    p.model = model;
+    return p;
+}
+
+FN bool bsdf_is_mirror(IN(BsdfParameters) p, uint features) {
+    return (features & FEATURE_MIRRORS) != 0u && p.alpha < ALPHA_MIRROR;
+}
+
+FN bool bsdf_is_blinn_phong(IN(BsdfParameters) p, uint features) {
+    return (features & FEATURE_BLINN_PHONG) != 0u && ((features & FEATURE_GGX) == 0u || p.model == BRDF_BLINN_PHONG);
+}
+
+/// Probability of the specular lobe, seen from wo; -1 where nothing reflects at all.
+FN float bsdf_specular_probability(IN(BsdfParameters) p, vec3 wo) {
+    bool has_diffuse = max_component(p.diffuse) > 0.0f;
+    bool has_specular = max(max_component(p.f0), max_component(p.f90)) > 0.0f;
+    float s = luminance(fresnel_schlick(p.f0, p.f90, wo.z));
+    float d = luminance(p.diffuse) * (1.0f - clamp(s, 0.0f, 1.0f));
+    float mixed = clamp(s / max(s + d, 1.0e-20f), LOBE_MIN, 1.0f - LOBE_MIN);
+    float single = has_specular ? 1.0f : (has_diffuse ? 0.0f : -1.0f);
+    return has_diffuse && has_specular ? mixed : single;
+}
+
+/// Whether the surface reflects, and only as a mirror: then light sampling cannot hit it.
+FN bool bsdf_is_purely_delta(IN(BsdfParameters) p, uint features) {
+    return bsdf_is_mirror(p, features) && !(max_component(p.diffuse) > 0.0f);
+}
+
+/// eval and pdf of the lobes that are not delta.
+FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint features) {
+    BsdfValue r;
+    r.value = vec3(0.0f, 0.0f, 0.0f);
+    r.pdf = 0.0f;
+    float p_specular = bsdf_specular_probability(p, wo);
+    if (!(wo.z > COS_MIN && wi.z > COS_MIN) || p_specular < 0.0f) {
+        return r;
+    }
+    // |wo + wi| = 2 o·h, at least COS_MIN as both are above the horizon.
+    vec3 sum = wo + wi;
+    float sum_length = length(sum);
+    vec3 h = sum / sum_length;
+    float o_dot_h = 0.5f * sum_length;
+    vec3 fresnel = fresnel_schlick(p.f0, p.f90, o_dot_h);
+    r.value = p.diffuse * (vec3(1.0f, 1.0f, 1.0f) - fresnel) * (INV_PI * wi.z);
+    r.pdf = (1.0f - p_specular) * pdf_cosine_hemisphere_solid_angle(wi.z);
+    if (p_specular > 0.0f && !bsdf_is_mirror(p, features)) {
+        float alpha = clamp(p.alpha, ALPHA_MIRROR, 1.0f);
+        if (bsdf_is_blinn_phong(p, features)) {
+            r.value += fresnel * blinn_phong_eval(wo, wi, h, alpha);
+            r.pdf += p_specular * pdf_blinn_phong_solid_angle(o_dot_h, h, alpha);
+        } else if ((features & FEATURE_GGX) != 0u) {
+            r.value += fresnel * ggx_eval(wo, wi, h, alpha);
+            r.pdf += p_specular * pdf_ggx_solid_angle(wo, h, alpha);
+        }
+    }
+    return r;
+}
+
+/// f |cos_i|, without delta lobes.
+FN vec3 bsdf_eval_local(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint features) {
+    BsdfValue r = bsdf_eval_pdf_local(p, wo, wi, features);
+    return r.value;
+}
+
+/// Density of wi per steradian, without delta lobes; integrates to 1 - P(null sample) - P(delta).
+FN float bsdf_pdf_local(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint features) {
+    BsdfValue r = bsdf_eval_pdf_local(p, wo, wi, features);
+    return r.pdf;
+}
+
+FN BsdfSample bsdf_null_sample() {
+    BsdfSample s;
+    s.direction = vec3(0.0f, 0.0f, 1.0f);
+    s.weight = vec3(0.0f, 0.0f, 0.0f);
+    s.pdf = 0.0f;
+    s.delta = 0u;
+    return s;
+}
+
+/// A direction by one of the lobes; a facet that reflects below the horizon gives a null sample, never a retry.
+FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float u_lobe, vec2 u, uint features) {
+    BsdfSample s = bsdf_null_sample();
+    float p_specular = bsdf_specular_probability(p, wo);
+    if (!(wo.z > COS_MIN) || p_specular < 0.0f) {
+        return s;
+    }
+    bool specular = u_lobe < p_specular;
+    if (specular && bsdf_is_mirror(p, features)) {
+        s.direction = vec3(-wo.x, -wo.y, wo.z);
+        s.weight = fresnel_schlick(p.f0, p.f90, wo.z) / p_specular;
+        s.pdf = p_specular;
+        s.delta = 1u;
+        return s;
+    }
+    if (specular) {
+        float alpha = clamp(p.alpha, ALPHA_MIRROR, 1.0f);
+        vec3 h = vec3(0.0f, 0.0f, 0.0f);
+        if (bsdf_is_blinn_phong(p, features)) {
+            h = sample_blinn_phong_normal(alpha, u);
+        } else if ((features & FEATURE_GGX) != 0u) {
+            h = sample_ggx_visible_normal(wo, alpha, u);
+        }
+        float o_dot_h = dot(wo, h);
+        if (!(o_dot_h > 0.0f)) {
+            return s;
+        }
+        s.direction = normalize(2.0f * o_dot_h * h - wo);
+    } else {
+        s.direction = sample_cosine_hemisphere(u);
+    }
+    BsdfValue r = bsdf_eval_pdf_local(p, wo, s.direction, features);
+    if (r.pdf > 0.0f) {
+        s.weight = r.value / r.pdf;
+        s.pdf = r.pdf;
+    }
+    return s;
+}
+
+SHARED_END
+
+#endif

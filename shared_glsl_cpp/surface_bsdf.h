@@ -1,0 +1,167 @@
+// The BSDF at a hit, in world space: what kernels call. Three normals: of the triangle, interpolated, and from a normal
+// map.
+#ifndef SURFACE_BSDF_H
+#define SURFACE_BSDF_H
+
+#include "bsdf.h"
+#include "frame.h"
+#include "normal_map.h"
+
+SHARED_BEGIN
+
+struct SurfaceBsdf {
+    BsdfParameters parameters;
+    vec3 geometric_normal;  // unit, on wo's side
+    vec3 shading_normal;    // unit, interpolated, on the geometric normal's side
+    vec3 mapped_normal;     // unit; equals shading_normal where there is no map
+    uint mapped;            // 1: the material has a normal map
+};
+
+/// No light leaks through the triangle: both directions must be on its outer side.
+FN bool surface_reflects(IN(SurfaceBsdf) s, vec3 wo, vec3 wi) {
+    return dot(wo, s.geometric_normal) > 0.0f && dot(wi, s.geometric_normal) > 0.0f;
+}
+
+FN BsdfValue bsdf_eval_pdf_in_frame(IN(BsdfParameters) p, IN(Frame) frame, vec3 wo, vec3 wi, uint features) {
+    return bsdf_eval_pdf_local(p, to_local(frame, wo), to_local(frame, wi), features);
+}
+
+FN BsdfSample bsdf_sample_in_frame(IN(BsdfParameters) p, IN(Frame) frame, vec3 wo, float u_lobe, vec2 u,
+                                   uint features) {
+    BsdfSample r = bsdf_sample_local(p, to_local(frame, wo), u_lobe, u, features);
+    r.direction = normalize(to_world(frame, r.direction));
+    return r;
+}
+
+/// The mapped surface's f cos and pdf, summed over the paths o→p→i, o→p→t→i and o→t→p→i (Schüssler et al. 2017, section
+/// 4).
+FN BsdfValue mapped_eval_pdf(IN(BsdfParameters) p, IN(MappedNormal) m, vec3 wo, vec3 wi, uint features) {
+    BsdfValue sum;
+    sum.value = vec3(0.0f, 0.0f, 0.0f);
+    sum.pdf = 0.0f;
+    if (!(dot(wi, m.normal) > COS_MIN)) {
+        return sum;
+    }
+    Frame frame = frame_from_normal(m.facet);
+    float p_facet = mapped_facet_probability(m, wo);
+    float escape = mapped_masking(m, wi);
+    if (p_facet > 0.0f) {
+        BsdfValue direct = bsdf_eval_pdf_in_frame(p, frame, wo, wi, features);
+        sum.value += p_facet * escape * direct.value;
+        sum.pdf += p_facet * escape * direct.pdf;
+        if (dot(wi, m.tangent) > 0.0f) {
+            vec3 before = mapped_reflect(m, wi);
+            float caught = p_facet * (1.0f - mapped_masking(m, before));
+            BsdfValue twice = bsdf_eval_pdf_in_frame(p, frame, wo, before, features);
+            sum.value += caught * escape * twice.value;
+            sum.pdf += caught * twice.pdf;
+        }
+    }
+    if (p_facet < 1.0f) {
+        BsdfValue twice = bsdf_eval_pdf_in_frame(p, frame, mapped_reflect(m, wo), wi, features);
+        sum.value += (1.0f - p_facet) * escape * twice.value;
+        sum.pdf += (1.0f - p_facet) * twice.pdf;
+    }
+    return sum;
+}
+
+/// f |cos_i| and its pdf, without delta lobes.
+FN BsdfValue surface_bsdf_eval_pdf(IN(SurfaceBsdf) s, vec3 wo, vec3 wi, uint features) {
+    BsdfValue r;
+    r.value = vec3(0.0f, 0.0f, 0.0f);
+    r.pdf = 0.0f;
+    if (!surface_reflects(s, wo, wi)) {
+        return r;
+    }
+    vec3 normal = bent_normal(s.shading_normal, s.geometric_normal, wo);
+    if ((features & FEATURE_NORMAL_MAPS) != 0u && s.mapped != 0u) {
+        MappedNormal m = make_mapped_normal(s.shading_normal, normal, s.mapped_normal);
+        if (m.tilted != 0u) {
+            return mapped_eval_pdf(s.parameters, m, wo, wi, features);
+        }
+    }
+    return bsdf_eval_pdf_in_frame(s.parameters, frame_from_normal(normal), wo, wi, features);
+}
+
+FN vec3 surface_bsdf_eval(IN(SurfaceBsdf) s, vec3 wo, vec3 wi, uint features) {
+    BsdfValue r = surface_bsdf_eval_pdf(s, wo, wi, features);
+    return r.value;
+}
+
+FN float surface_bsdf_pdf(IN(SurfaceBsdf) s, vec3 wo, vec3 wi, uint features) {
+    BsdfValue r = surface_bsdf_eval_pdf(s, wo, wi, features);
+    return r.pdf;
+}
+
+/// Follows one of the three paths: u.x picks the lobe; u.y the facet and, stretched over what is left of it, whether a
+/// direction off the mapped facet is caught by the tangent one.
+FN BsdfSample mapped_sample(IN(BsdfParameters) p, IN(MappedNormal) m, vec3 wo, vec2 u_lobe, vec2 u, uint features) {
+    Frame frame = frame_from_normal(m.facet);
+    float p_facet = mapped_facet_probability(m, wo);
+    bool on_facet = u_lobe.y < p_facet;
+    vec3 start = wo;
+    if (!on_facet) {
+        start = mapped_reflect(m, wo);
+    }
+    BsdfSample r = bsdf_sample_in_frame(p, frame, start, u_lobe.x, u, features);
+    float path = on_facet ? p_facet : 1.0f - p_facet;
+    float thinning = 1.0f;
+    if (on_facet) {
+        float escape = mapped_masking(m, r.direction);
+        if (u_lobe.y < p_facet * escape) {
+            path *= escape;
+        } else {
+            path *= 1.0f - escape;
+            r.direction = mapped_reflect(m, r.direction);
+            thinning = mapped_masking(m, r.direction);
+        }
+    } else {
+        thinning = mapped_masking(m, r.direction);
+    }
+    if (r.delta != 0u) {
+        r.weight *= thinning;
+        r.pdf *= path;
+        if (!(dot(r.direction, m.normal) > COS_MIN)) {
+            return bsdf_null_sample();
+        }
+        return r;
+    }
+    if (!(r.pdf > 0.0f)) {
+        return bsdf_null_sample();
+    }
+    BsdfValue v = mapped_eval_pdf(p, m, wo, r.direction, features);
+    if (!(v.pdf > 0.0f)) {
+        return bsdf_null_sample();
+    }
+    r.weight = v.value / v.pdf;
+    r.pdf = v.pdf;
+    return r;
+}
+
+/// A direction in world space, unit. `u_lobe`: x picks the lobe, y the facet of a normal map.
+FN BsdfSample surface_bsdf_sample(IN(SurfaceBsdf) s, vec3 wo, vec2 u_lobe, vec2 u, uint features) {
+    BsdfSample r = bsdf_null_sample();
+    if (!(dot(wo, s.geometric_normal) > 0.0f)) {
+        return r;
+    }
+    vec3 normal = bent_normal(s.shading_normal, s.geometric_normal, wo);
+    bool done = false;
+    if ((features & FEATURE_NORMAL_MAPS) != 0u && s.mapped != 0u) {
+        MappedNormal m = make_mapped_normal(s.shading_normal, normal, s.mapped_normal);
+        if (m.tilted != 0u) {
+            r = mapped_sample(s.parameters, m, wo, u_lobe, u, features);
+            done = true;
+        }
+    }
+    if (!done) {
+        r = bsdf_sample_in_frame(s.parameters, frame_from_normal(normal), wo, u_lobe.x, u, features);
+    }
+    if (!surface_reflects(s, wo, r.direction)) {
+        return bsdf_null_sample();
+    }
+    return r;
+}
+
+SHARED_END
+
+#endif
