@@ -1,0 +1,104 @@
+#include "arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "error.h"
+#include "render/settings_names.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr int largest_side = 32768;
+constexpr long long largest_area = 1LL << 28;
+
+[[noreturn]] void refuse_size(const std::string& text, const std::string& reason) {
+    throw Error(fmt::format("--size {}: {}", text, reason));
+}
+
+int parse_side(const std::string& text, const std::string& side) {
+    int value = 0;
+    const char* end = side.data() + side.size();
+    const auto [stop, failure] = std::from_chars(side.data(), end, value);
+    if (failure != std::errc() || stop != end || value < 1 || value > largest_side) {
+        refuse_size(text, fmt::format("wants WIDTHxHEIGHT or a height, each from 1 to {}", largest_side));
+    }
+    return value;
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, RenderArguments& arguments) {
+    RenderRequest& request = arguments.request;
+    command.add_option("--integrator", arguments.integrator, "brdf, direct or path")->capture_default_str();
+    command.add_option("--brdf", arguments.brdf, "Microfacet model: ggx or blinn-phong")->capture_default_str();
+    command.add_option("--sampler", arguments.sampler, "independent, hammersley or sobol")->capture_default_str();
+    command.add_option("--mis", arguments.mis, "Weights of path: power or balance")->capture_default_str();
+    command.add_option("--max-depth", request.settings.max_depth, "Scattering events; 1 is emission and direct light")
+        ->check(CLI::Range(0, 65535))
+        ->capture_default_str();
+    command.add_option("--size", arguments.size, "WIDTHxHEIGHT in pixels, or a height: the camera's aspect gives the width");
+    command.add_option("--camera", request.camera, "Camera by name or index; the first by default");
+    command.add_option("--env", request.environment, "Light from infinity: R,G,B radiance, or a .hdr or .exr panorama");
+    command.add_option("--env-scale", request.environment_scale, "Factor on that light")->check(CLI::NonNegativeNumber);
+    command.add_option("--env-rotate", request.environment_rotation, "Degrees it is turned about +Y");
+    command.add_option("--aperture", request.lens_radius, "Radius of the lens, metres")->check(CLI::NonNegativeNumber);
+    command.add_option("--focus", request.focus_distance, "Distance in focus, metres")->check(CLI::PositiveNumber);
+    command.add_flag("--generic", request.settings.generic, "Leave nothing out that the scene does not need; same image");
+}
+
+void add_backend_options(CLI::App& command, RenderArguments& arguments) {
+    RenderRequest& request = arguments.request;
+    command.add_option("--backend", request.backend, "cpu or vulkan")->capture_default_str();
+    command.add_option("--device", request.device, "Vulkan device by index or name; the best by default");
+    command.add_option("--threads", request.threads, "CPU threads; one a core by default")->check(CLI::Range(1, 4096));
+    command.add_flag("--validation", request.validation, "Run Vulkan's validation layers");
+}
+
+void resolve_names(RenderArguments& arguments) {
+    RenderRequest& request = arguments.request;
+    RenderSettings& settings = request.settings;
+    settings.integrator = integrator_from_name(arguments.integrator);
+    settings.brdf = brdf_from_name(arguments.brdf);
+    settings.sampler = sampler_from_name(arguments.sampler);
+    settings.mis = mis_from_name(arguments.mis);
+    if (request.backend != "cpu" && request.backend != "vulkan") {
+        throw Error(fmt::format("--backend {}: there are only cpu, vulkan", request.backend));
+    }
+    const bool cpu = request.backend == "cpu";
+    if (cpu && !request.device.empty()) {
+        throw Error("--device: goes with --backend vulkan");
+    }
+    if (cpu && request.validation) {
+        throw Error("--validation: goes with --backend vulkan");
+    }
+    if (!cpu && request.threads != 0) {
+        throw Error("--threads: goes with --backend cpu");
+    }
+    if (!arguments.size.empty()) {
+        resolve_size(arguments, Camera{});
+    }
+}
+
+void resolve_size(RenderArguments& arguments, const Camera& camera) {
+    RenderSettings& settings = arguments.request.settings;
+    const std::string& text = arguments.size;
+    const std::size_t cross = text.find('x');
+    if (cross != std::string::npos) {
+        settings.width = parse_side(text, text.substr(0, cross));
+        settings.height = parse_side(text, text.substr(cross + 1));
+    } else {
+        settings.height = text.empty() ? RenderSettings{}.height : parse_side(text, text);
+        const double width = std::round(settings.height * camera.aspect.value_or(1));
+        settings.width = static_cast<int>(std::clamp<double>(width, 1, largest_side));
+    }
+    if (static_cast<long long>(settings.width) * settings.height > largest_area) {
+        refuse_size(text, fmt::format("has more than {} pixels", largest_area));
+    }
+}
+
+}  // namespace diptych::app

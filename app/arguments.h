@@ -1,0 +1,34 @@
+// Options that several commands share, from text to a RenderRequest.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "render/render_request.h"
+#include "scene/scene.h"
+
+namespace diptych::app {
+
+/// Options as typed, and the request that they fill.
+struct RenderArguments {
+    RenderRequest request;
+    std::string integrator = "path";
+    std::string brdf = "ggx";
+    std::string sampler = "sobol";
+    std::string mis = "power";
+    std::string size;
+};
+
+/// The scene, what changes it (environment, camera, lens, size), and what decides its features.
+void add_scene_options(CLI::App& command, RenderArguments& arguments);
+
+/// Which backend, and how it is to work.
+void add_backend_options(CLI::App& command, RenderArguments& arguments);
+
+/// Names to values, and options that contradict the backend refused. Throws Error naming the option.
+void resolve_names(RenderArguments& arguments);
+
+/// "WxH", or a height to which the camera's aspect gives the width; empty is 512 high. Throws Error.
+void resolve_size(RenderArguments& arguments, const Camera& camera);
+
+}  // namespace diptych::app

@@ -1,0 +1,20 @@
+// The subcommands, one file each. Each adds itself to the program's parser and, when chosen, sets what is to be run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace diptych::app {
+
+enum ExitCode { exit_done = 0, exit_check_failed = 1, exit_bad_input = 2, exit_no_device = 3, exit_interrupted = 130 };
+
+/// Returns the exit code; throws Error and NoDevice.
+using Run = std::function<int()>;
+
+void add_render(CLI::App& app, Run& run);
+void add_compare(CLI::App& app, Run& run);
+void add_info(CLI::App& app, Run& run);
+void add_generate(CLI::App& app, Run& run);
+void add_bench(CLI::App& app, Run& run);
+
+}  // namespace diptych::app

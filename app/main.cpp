@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+#include <string>
+
+#include "command.h"
+#include "error.h"
+#include "report.h"
+#include "suggestion.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  diptych generate cornell -o cornell.gltf
+  diptych render cornell.gltf -o cpu.exr --backend cpu --seed 1
+  diptych render cornell.gltf -o vulkan.exr --backend vulkan --seed 2
+  diptych compare cpu.exr vulkan.exr -o difference.png
+  diptych COMMAND --help
+Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 no suitable device, 130 interrupted)";
+
+int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+    const std::string hint = suggestion(app, argc, argv);
+    report_error(one_line(error.what()) + (hint.empty() ? "" : " (" + hint + ")"));
+    return exit_bad_input;
+}
+
+int run_program(int argc, char** argv) {
+    CLI::App app("One glTF scene rendered twice, by Embree on the CPU and by Vulkan ray tracing, from one set of shaders.",
+                 "diptych");
+    app.footer(examples);
+    app.set_version_flag("--version", program_version());
+    app.require_subcommand(1);
+    Run run;
+    add_render(app, run);
+    add_compare(app, run);
+    add_info(app, run);
+    add_generate(app, run);
+    add_bench(app, run);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        return usage_error(app, error, argc, argv);
+    }
+    return run();
+}
+
+}  // namespace
+
+}  // namespace diptych::app
+
+int main(int argc, char** argv) {
+    using namespace diptych;
+    try {
+        return app::run_program(argc, argv);
+    } catch (const NoDevice& error) {
+        app::report_error(error.what());
+        return app::exit_no_device;
+    } catch (const Error& error) {
+        app::report_error(error.what());
+        return app::exit_bad_input;
+    } catch (const std::bad_alloc&) {
+        app::report_error("not enough memory");
+        return app::exit_bad_input;
+    } catch (const std::exception& error) {
+        app::report_error(fmt::format("internal error: {}", error.what()));
+        return app::exit_bad_input;
+    }
+}

@@ -1,0 +1,65 @@
+#include "progress_line.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "report.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr double terminal_interval = 0.2;
+constexpr double first_sparse_line = 2;
+
+std::string clock_text(double seconds) {
+    const long long whole = std::llround(std::ceil(seconds));
+    return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
+                        : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+}  // namespace
+
+std::string progress_text(const Progress& progress, std::uint32_t target_spp) {
+    std::string text = target_spp > 0 ? fmt::format("{}/{} spp", progress.spp, target_spp)
+                                      : fmt::format("{} spp", progress.spp);
+    text += fmt::format("  {}samples/s", with_prefix(progress.samples_per_second));
+    if (progress.rays_per_second > 0) {
+        text += fmt::format("  {}ray/s", with_prefix(progress.rays_per_second));
+    }
+    text += "  ETA " + clock_text(progress.eta_seconds);
+    if (progress.relmse) {
+        text += fmt::format("  relMSE {:.1e}", *progress.relmse);
+    }
+    return text;
+}
+
+ProgressLine::ProgressLine(std::uint32_t target_spp)
+    : target_spp_(target_spp), terminal_(isatty(STDERR_FILENO) == 1), next_(terminal_ ? 0 : first_sparse_line) {}
+
+ProgressLine::~ProgressLine() {
+    if (latest_.spp == 0) {
+        return;
+    }
+    if (terminal_) {
+        fmt::print(stderr, "\r{}\x1b[K\n", progress_text(latest_, target_spp_));
+    } else if (latest_.spp != shown_.spp) {
+        fmt::print(stderr, "{}\n", progress_text(latest_, target_spp_));
+    }
+}
+
+void ProgressLine::show(const Progress& progress) {
+    latest_ = progress;
+    if (progress.seconds < next_) {
+        return;
+    }
+    shown_ = progress;
+    next_ = terminal_ ? progress.seconds + terminal_interval : 2 * progress.seconds;
+    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", progress_text(progress, target_spp_), terminal_ ? "\x1b[K" : "\n");
+    std::fflush(stderr);
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,146 @@
+#include "scene_setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+
+#include "error.h"
+#include "report.h"
+#include "scene/default_camera.h"
+#include "scene/environment_load.h"
+#include "scene/gltf_import.h"
+
+namespace diptych::app {
+
+namespace {
+
+/// "R,G,B" as a colour; nothing where the text is not three numbers.
+std::optional<glm::vec3> parse_color(const std::string& text) {
+    glm::vec3 color{0};
+    const char* at = text.data();
+    const char* end = at + text.size();
+    for (int channel = 0; channel < 3; ++channel) {
+        const auto [stop, failure] = std::from_chars(at, end, color[channel]);
+        const bool last = channel == 2;
+        if (failure != std::errc() || (last ? stop != end : stop == end || *stop != ',')) {
+            return std::nullopt;
+        }
+        at = stop + 1;
+    }
+    return color;
+}
+
+Environment requested_environment(const std::string& text) {
+    const std::optional<glm::vec3> color = parse_color(text);
+    if (!color) {
+        const bool like_numbers = text.find_first_not_of("0123456789+-.,eE ") == std::string::npos;
+        if (like_numbers && !std::filesystem::exists(text)) {
+            throw Error(fmt::format("--env {}: wants three numbers R,G,B or a file", text));
+        }
+        return load_environment(text);
+    }
+    for (int channel = 0; channel < 3; ++channel) {
+        if (!std::isfinite((*color)[channel]) || (*color)[channel] < 0) {
+            throw Error(fmt::format("--env {}: radiance must be finite and not negative", text));
+        }
+    }
+    Environment environment;
+    environment.kind = Environment::Kind::constant;
+    environment.scale = *color;
+    return environment;
+}
+
+void place_environment(Scene& scene, const RenderRequest& request) {
+    if (!request.environment.empty()) {
+        scene.environment = requested_environment(request.environment);
+    } else if (!has_light(scene)) {
+        scene.environment = neutral_sky();
+        scene.warnings.push_back(fmt::format("{}: the scene has no light: lit by a neutral sky", scene.name));
+    }
+    const bool turned = request.environment_scale != 1 || request.environment_rotation != 0;
+    if (scene.environment.kind == Environment::Kind::none && turned) {
+        throw Error(fmt::format("{}: --env-scale and --env-rotate want an environment, and the scene has none: give --env",
+                                scene.name));
+    }
+    scene.environment.scale *= static_cast<float>(request.environment_scale);
+    scene.environment.rotation += request.environment_rotation * std::numbers::pi / 180;
+}
+
+std::string camera_list(const Scene& scene) {
+    std::string list;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        list += fmt::format("{}{} '{}'", list.empty() ? "" : ", ", i, scene.cameras[i].name);
+    }
+    return list;
+}
+
+int find_camera(const Scene& scene, const std::string& wanted) {
+    const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                    [&](const Camera& camera) { return camera.name == wanted; });
+    if (named != scene.cameras.end()) {
+        return static_cast<int>(named - scene.cameras.begin());
+    }
+    std::size_t index = 0;
+    const char* end = wanted.data() + wanted.size();
+    const auto [stop, failure] = std::from_chars(wanted.data(), end, index);
+    if (failure != std::errc() || stop != end || index >= scene.cameras.size()) {
+        throw Error(fmt::format("{}: no camera '{}'; there {}", scene.name, wanted,
+                                scene.cameras.empty() ? "are none" : "are " + camera_list(scene)));
+    }
+    return static_cast<int>(index);
+}
+
+void place_camera(Scene& scene, RenderRequest& request) {
+    if (!request.camera.empty()) {
+        request.settings.camera = find_camera(scene, request.camera);
+    } else if (scene.cameras.empty()) {
+        scene.cameras.push_back(frame_scene(scene));
+        scene.warnings.push_back(fmt::format("{}: the scene has no camera: seen by one that frames it", scene.name));
+    }
+    Camera& camera = scene.cameras[static_cast<std::size_t>(request.settings.camera)];
+    if (request.lens_radius.value_or(0) > 0 && !request.focus_distance) {
+        throw Error("--aperture: wants --focus, the distance in focus");
+    }
+    camera.lens_radius = request.lens_radius.value_or(camera.lens_radius);
+    camera.focus_distance = request.focus_distance.value_or(camera.focus_distance);
+}
+
+bool emits(const Material& material) {
+    return std::max({material.emission.x, material.emission.y, material.emission.z}) > 0 || material.unlit;
+}
+
+}  // namespace
+
+bool has_light(const Scene& scene) {
+    if (!scene.lights.empty() || scene.environment.kind != Environment::Kind::none) {
+        return true;
+    }
+    for (const Instance& instance : scene.instances) {
+        for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
+            if (emits(scene.materials[static_cast<std::size_t>(primitive.material)])) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+Scene prepare_scene(RenderArguments& arguments) {
+    RenderRequest& request = arguments.request;
+    Scene scene = load_gltf(request.scene);
+    if (scene.name.empty()) {
+        scene.name = request.scene;
+    }
+    place_environment(scene, request);
+    place_camera(scene, request);
+    resolve_size(arguments, scene.cameras[static_cast<std::size_t>(request.settings.camera)]);
+    report_warnings(scene.warnings);
+    return scene;
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,46 @@
+// The loop that lets a picture grow, until it is good enough, time is up, or someone asks to stop.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "render/renderer.h"
+
+namespace diptych {
+
+/// When to stop; at least one of the limits is set.
+struct ProgressiveTarget {
+    std::uint32_t first = 0;  // index of the first sample
+    std::uint32_t spp = 0;    // samples a pixel; 0 is no limit
+    double seconds = 0;       // of rendering, to the nearest whole sample; 0 is no limit
+};
+
+struct Progress {
+    std::uint32_t spp = 0;          // done, of every pixel
+    double seconds = 0;             // of rendering so far
+    double eta_seconds = 0;         // until the target
+    double samples_per_second = 0;  // over all pixels
+    double rays_per_second = 0;     // as of the latest look at the film; 0 before it
+    std::optional<double> relmse;   // estimate, likewise
+};
+
+struct ProgressiveHooks {
+    std::function<void(const Progress&)> progress;  // after every batch
+    std::function<double()> now;                    // seconds, for tests; the steady clock by default
+};
+
+struct ProgressiveResult {
+    std::uint32_t spp = 0;  // samples that every pixel has been given
+    double seconds = 0;     // spent rendering
+    bool interrupted = false;
+};
+
+/// Renders in batches of about a quarter of a second, sized by the speed of the one before, until the target is met or `cancel`
+/// is set. The film is looked at between batches, at most once a second and for at most a fiftieth of the time, and only where
+/// there is a progress hook. A batch that `cancel` cut short leaves extra samples on some pixels; they do not count in `spp`.
+ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarget& target,
+                                       const std::atomic<bool>& cancel, const ProgressiveHooks& hooks = {});
+
+}  // namespace diptych

@@ -1,0 +1,21 @@
+// The command line's names of the settings' choices.
+#pragma once
+
+#include <string>
+
+#include "render/settings.h"
+
+namespace diptych {
+
+const char* name_of(Integrator integrator);
+const char* name_of(BrdfModel brdf);
+const char* name_of(SamplerKind sampler);
+const char* name_of(MisHeuristic mis);
+
+/// Each throws Error, listing the names there are, where none is `name`.
+Integrator integrator_from_name(const std::string& name);
+BrdfModel brdf_from_name(const std::string& name);
+SamplerKind sampler_from_name(const std::string& name);
+MisHeuristic mis_from_name(const std::string& name);
+
+}  // namespace diptych
