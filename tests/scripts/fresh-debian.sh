@@ -2,8 +2,8 @@
 # Tries the project on a Debian with nothing installed: a debootstrap chroot that gets a copy of the working tree
 # (tracked and untracked files, no build output) and runs a command in it. Needs root, debootstrap and a network.
 #   tests/scripts/fresh-debian.sh [--suite bookworm] [--keep FOLDER] [COMMAND...]      default command: ./test
-# --keep makes or reuses FOLDER as the chroot and leaves it there. Mirror and apt's network settings (proxy, checks) are
-# the machine's own. Files the command writes under out/ in the copy lie in FOLDER/root/diptych/out.
+# --keep makes or reuses FOLDER as the chroot and leaves it there. Mirror, certificate authorities and apt's settings (proxy,
+# checks) are the machine's own. Files the command writes under out/ in the copy lie in FOLDER/root/diptych/out.
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
@@ -38,7 +38,9 @@ fi
 cp -L /etc/resolv.conf /etc/hosts "$chroot_dir/etc/"
 grep -lsE '^ *Acquire::' /etc/apt/apt.conf.d/* /etc/apt/apt.conf 2>/dev/null |
     while read -r file; do cp "$file" "$chroot_dir/etc/apt/apt.conf.d/"; done || true
-mkdir -p "$chroot_dir/root/diptych"
+# Local certificate authorities: Debian's ca-certificates takes them up when it is installed.
+mkdir -p "$chroot_dir/usr/local/share/ca-certificates" "$chroot_dir/root/diptych"
+find /usr/local/share/ca-certificates -name '*.crt' -exec cp -t "$chroot_dir/usr/local/share/ca-certificates" {} + || true
 git -C "$root" ls-files -z --cached --others --exclude-standard |
     (cd "$root" && while IFS= read -r -d '' file; do [ ! -e "$file" ] || printf '%s\0' "$file"; done) |
     tar -C "$root" --null --files-from=- -c | tar -C "$chroot_dir/root/diptych" -x
