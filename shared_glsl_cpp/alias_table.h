@@ -7,7 +7,9 @@
 SHARED_BEGIN
 
 /// A column below `count`, all alike to within count/2^32.
-FN uint alias_column(uint bits, uint count) { return multiply_high(bits, count); }
+FN uint alias_column(uint bits, uint count) {
+    return multiply_high(bits, count);
+}
 
 /// The column, or its alias. All 32 bits count, and probability 1 always keeps.
 FN uint alias_pick(IN(AliasEntry) e, uint column, uint bits) {

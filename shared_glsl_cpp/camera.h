@@ -7,9 +7,9 @@
 
 SHARED_BEGIN
 
-/// The ray through a film point in [0, 1]^2, y down, and a point `lens` of the unit square, mapped to the lens. `direction` is
-/// unit. `thin_lens` and `orthographic_allowed` are features: where false, the camera's data is not asked. An orthographic
-/// camera has no lens.
+/// The ray through a film point in [0, 1]^2, y down, and a point `lens` of the unit square, mapped to the lens.
+/// `direction` is unit. `thin_lens` and `orthographic_allowed` are features: where false, the camera's data is not
+/// asked. An orthographic camera has no lens.
 FN void camera_ray(IN(Camera) c, vec2 film, vec2 lens, bool thin_lens, bool orthographic_allowed, OUT(vec3) origin,
                    OUT(vec3) direction) {
     float x = 2.0f * film.x - 1.0f;

@@ -1,5 +1,5 @@
-// Equirectangular maps: u = 1/2 looks along -Z and grows toward +X, v = 0 is +Y. `rotation` is the cosine and sine of the
-// map's turn about +Y, counter-clockwise seen from above.
+// Equirectangular maps: u = 1/2 looks along -Z and grows toward +X, v = 0 is +Y. `rotation` is the cosine and sine of
+// the map's turn about +Y, counter-clockwise seen from above.
 #ifndef ENVIRONMENT_MAPPING_H
 #define ENVIRONMENT_MAPPING_H
 

@@ -6,8 +6,8 @@
 
 SHARED_BEGIN
 
-/// Weight of a sample drawn with pdf_a that the other strategy has with pdf_b, same measure; heuristic is MIS_POWER (exponent
-/// 2) or MIS_BALANCE. 0 unless pdf_a > 0, 1 unless pdf_b > 0; by the pdfs' ratio, so no square overflows.
+/// Weight of a sample drawn with pdf_a that the other strategy has with pdf_b, same measure; heuristic is MIS_POWER
+/// (exponent 2) or MIS_BALANCE. 0 unless pdf_a > 0, 1 unless pdf_b > 0; by the pdfs' ratio, so no square overflows.
 FN float mis_weight(uint heuristic, float pdf_a, float pdf_b) {
     if (!(pdf_a > 0.0f)) {
         return 0.0f;

@@ -14,8 +14,8 @@ FN float offset_coordinate(float position, float normal) {
     return abs(position) < 1.0f / 32.0f ? near_zero : stepped;
 }
 
-/// The finite point moved off the surface, to the side that the unit normal points to (Waechter & Binder 2019, Ray Tracing
-/// Gems, chapter 6).
+/// The finite point moved off the surface, to the side that the unit normal points to (Waechter & Binder 2019, Ray
+/// Tracing Gems, chapter 6).
 FN vec3 offset_ray(vec3 position, vec3 geometric_normal) {
     return vec3(offset_coordinate(position.x, geometric_normal.x), offset_coordinate(position.y, geometric_normal.y),
                 offset_coordinate(position.z, geometric_normal.z));

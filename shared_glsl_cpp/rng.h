@@ -31,10 +31,14 @@ FN uint hash_word(uint x) {
 }
 
 /// Hash of an ordered pair; a permutation in either word while the other is fixed.
-FN uint hash_combine(uint a, uint b) { return hash_word(hash_word(a + 0x9e3779b9u) + b); }
+FN uint hash_combine(uint a, uint b) {
+    return hash_word(hash_word(a + 0x9e3779b9u) + b);
+}
 
 /// [0, 1): the word's high 24 bits.
-FN float unit_float(uint bits) { return float(bits >> 8) * 5.9604644775390625e-8f; }
+FN float unit_float(uint bits) {
+    return float(bits >> 8) * 5.9604644775390625e-8f;
+}
 
 SHARED_END
 

@@ -70,8 +70,8 @@ FN uint permute_index(uint i, uint n, uint key) {
     return x;
 }
 
-/// Point i of the set (i/n, radical inverse of i), shifted on the torus per pixel (Cranley & Patterson 1976). The lens takes
-/// the same set in another order.
+/// Point i of the set (i/n, radical inverse of i), shifted on the torus per pixel (Cranley & Patterson 1976). The lens
+/// takes the same set in another order.
 FN uvec2 hammersley_bits_2d(IN(Sampler) s, uint dimension) {
     uvec4 words = pixel_words(s, dimension, 0x48616d6du);
     uint i = s.sample_index;
@@ -81,8 +81,8 @@ FN uvec2 hammersley_bits_2d(IN(Sampler) s, uint dimension) {
     return uvec2(words.x + stratum_center_bits(i, s.sample_count), words.y + bitfieldReverse(i));
 }
 
-/// Owen scrambling of a bit-reversed word: each bit is flipped by a hash of the bits below it (Laine & Karras 2011, with the
-/// constants of Vegdahl 2021, "Building a Better LK Hash").
+/// Owen scrambling of a bit-reversed word: each bit is flipped by a hash of the bits below it (Laine & Karras 2011,
+/// with the constants of Vegdahl 2021, "Building a Better LK Hash").
 FN uint owen_scramble_reversed(uint x, uint key) {
     x = x ^ (x * 0x3d20adeau);
     x += key;
@@ -100,8 +100,8 @@ FN uint sobol_second_reversed(uint i) {
     return i ^ ((i >> 1) & 0x55555555u);
 }
 
-/// A (0,2)-sequence, Owen-scrambled, its order shuffled by pixel and pair of dimensions (Burley 2020, "Practical Hash-based
-/// Owen Scrambling").
+/// A (0,2)-sequence, Owen-scrambled, its order shuffled by pixel and pair of dimensions (Burley 2020, "Practical
+/// Hash-based Owen Scrambling").
 FN uvec2 sobol_bits_2d(IN(Sampler) s, uint dimension) {
     uvec4 words = pixel_words(s, dimension, 0x536f626fu);
     uint i = bitfieldReverse(owen_scramble_reversed(bitfieldReverse(s.sample_index), words.z));

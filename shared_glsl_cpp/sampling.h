@@ -38,7 +38,9 @@ FN vec3 sample_cosine_hemisphere(vec2 u) {
     return vec3(radius * c, radius * s, safe_sqrt((1.0f - radius) * (1.0f + radius)));
 }
 
-FN float pdf_cosine_hemisphere_solid_angle(float cos_theta) { return max(cos_theta, 0.0f) * INV_PI; }
+FN float pdf_cosine_hemisphere_solid_angle(float cos_theta) {
+    return max(cos_theta, 0.0f) * INV_PI;
+}
 
 FN vec3 sample_uniform_hemisphere(vec2 u) {
     float z = 1.0f - u.x;
@@ -49,7 +51,9 @@ FN vec3 sample_uniform_hemisphere(vec2 u) {
     return vec3(radius * c, radius * s, z);
 }
 
-FN float pdf_uniform_hemisphere_solid_angle() { return 0.5f * INV_PI; }
+FN float pdf_uniform_hemisphere_solid_angle() {
+    return 0.5f * INV_PI;
+}
 
 FN vec3 sample_uniform_sphere(vec2 u) {
     float z = 1.0f - 2.0f * u.x;
@@ -60,7 +64,9 @@ FN vec3 sample_uniform_sphere(vec2 u) {
     return vec3(radius * c, radius * s, z);
 }
 
-FN float pdf_uniform_sphere_solid_angle() { return 0.25f * INV_PI; }
+FN float pdf_uniform_sphere_solid_angle() {
+    return 0.25f * INV_PI;
+}
 
 SHARED_END
 

@@ -24,8 +24,7 @@
     X("orthographic", FEATURE_ORTHOGRAPHIC, 14)        \
     X("standard-error", FEATURE_STANDARD_ERROR, 15)    \
     X("first-hit-layers", FEATURE_FIRST_HIT_LAYERS, 16) \
-    X("brdf-sampling", FEATURE_BRDF_SAMPLING, 17)      \
-    X("light-sampling", FEATURE_LIGHT_SAMPLING, 18)
+    X("light-sampling", FEATURE_LIGHT_SAMPLING, 17)
 
 SHARED_BEGIN
 #define DECLARE_FEATURE(name, constant, bit) CONST uint constant = 1u << bit;

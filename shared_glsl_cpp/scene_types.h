@@ -81,6 +81,7 @@ ASSERT_SIZE(TextureSlot, 40);
 
 CONST uint EMITTER_TWO_SIDED = 1u;
 CONST uint EMITTER_MIRRORED = 2u;  // the front normal is -(edge_1 x edge_2)
+CONST uint EMITTER_VARIES = 4u;    // textured or not opaque: its radiance depends on the place, and the material knows it
 
 /// A light that a ray can hit: x = vertex_0 + b_1 edge_1 + b_2 edge_2, in world space. Lights 0 .. emissive_triangle_count-1.
 struct EmissiveTriangle {

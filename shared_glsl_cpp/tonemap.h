@@ -13,9 +13,13 @@ CONST uint TONEMAP_ACES = 3u;
 CONST uint TONEMAP_PBR_NEUTRAL = 4u;
 
 /// NaN and negative to 0, huge to where every operator has long saturated.
-FN float tonemap_input(float x) { return x > 0.0f ? min(x, 1.0e6f) : 0.0f; }
+FN float tonemap_input(float x) {
+    return x > 0.0f ? min(x, 1.0e6f) : 0.0f;
+}
 
-FN float tonemap_exponential(float x) { return 1.0f - exp2_poly(-x * LOG2_E); }
+FN float tonemap_exponential(float x) {
+    return 1.0f - exp2_poly(-x * LOG2_E);
+}
 
 /// Hable 2010, "Uncharted 2: HDR Lighting": the curve before its white scale.
 FN float hable_curve(float x) {
@@ -23,14 +27,17 @@ FN float hable_curve(float x) {
 }
 
 /// With Hable's exposure of 2 and white at 11.2.
-FN float tonemap_uncharted2(float x) { return max(hable_curve(2.0f * x) / hable_curve(11.2f), 0.0f); }
+FN float tonemap_uncharted2(float x) {
+    return max(hable_curve(2.0f * x) / hable_curve(11.2f), 0.0f);
+}
 
 /// Narkowicz 2015, "ACES Filmic Tone Mapping Curve".
 FN float tonemap_aces(float x) {
     return clamp((x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f), 0.0f, 1.0f);
 }
 
-/// Khronos PBR Neutral 2024: takes off the Fresnel reflection of a white surround, then compresses from 0.8 on, toward white.
+/// Khronos PBR Neutral 2024: takes off the Fresnel reflection of a white surround, then compresses from 0.8 on, toward
+/// white.
 FN vec3 tonemap_pbr_neutral(vec3 color) {
     float least = min(color.x, min(color.y, color.z));
     float offset = least < 0.08f ? least - 6.25f * least * least : 0.04f;

@@ -1,4 +1,5 @@
-// Points on a triangle x = v0 + b_1 e1 + b_2 e2, seen from a reference point. Both faces count: facing is the caller's to check.
+// Points on a triangle x = v0 + b_1 e1 + b_2 e2, seen from a reference point. Both faces count: facing is the caller's
+// to check.
 #ifndef TRIANGLE_SAMPLING_H
 #define TRIANGLE_SAMPLING_H
 
@@ -37,7 +38,9 @@ struct TriangleView {
     float scale;
 };
 
-FN float largest_magnitude(vec3 v) { return max_component(abs(v)); }
+FN float largest_magnitude(vec3 v) {
+    return max_component(abs(v));
+}
 
 /// e1 x e2 by the two shortest edges, which loses fewest digits on a needle.
 FN vec3 triangle_cross(vec3 e1, vec3 e2) {
@@ -72,8 +75,8 @@ FN TriangleView triangle_view(vec3 reference, vec3 v0, vec3 e1, vec3 e2) {
     float length_a = length(view.a);
     float length_b = length(b);
     float length_c = length(c);
-    PRECISE float denominator = length_a * length_b * length_c + dot(view.a, b) * length_c + dot(view.a, c) * length_b +
-                                dot(b, c) * length_a;
+    PRECISE float denominator =
+        length_a * length_b * length_c + dot(view.a, b) * length_c + dot(view.a, c) * length_b + dot(b, c) * length_a;
     view.volume = volume;
     view.solid_angle = 2.0f * arctan2(abs(volume), denominator);
     return view;
@@ -115,9 +118,9 @@ FN vec3 unit_orthogonal(vec3 v, vec3 axis) {
     return squared > 0.0f ? rest / sqrt(squared) : vec3(0.0f, 0.0f, 0.0f);
 }
 
-/// A unit direction, uniform over the spherical triangle. Arvo 1995, "Stratified Sampling of Spherical Triangles", with both
-/// inversions in half angles, which keep their digits on small triangles: the arc from A to C' by the excess E of ABC',
-/// tan(b'/2) = sin(E/2)/(tan(c/2) sin(alpha - E/2)), and the arc t from B by sin^2(t/2) = u_y sin^2(BC'/2).
+/// A unit direction, uniform over the spherical triangle. Arvo 1995, "Stratified Sampling of Spherical Triangles", with
+/// both inversions in half angles, which keep their digits on small triangles: the arc from A to C' by the excess E of
+/// ABC', tan(b'/2) = sin(E/2)/(tan(c/2) sin(alpha - E/2)), and the arc t from B by sin^2(t/2) = u_y sin^2(BC'/2).
 FN vec3 sample_spherical_triangle(IN(TriangleView) view, vec2 u) {
     vec3 a = normalize(view.a);
     vec3 b = normalize(view.b);
@@ -142,8 +145,8 @@ FN vec3 sample_spherical_triangle(IN(TriangleView) view, vec2 u) {
     return (1.0f - 2.0f * sin_half_squared) * b + sine * unit_orthogonal(chord, b);
 }
 
-/// Where the direction meets the triangle: its weights on the three vertices are in proportion to the volumes that it spans
-/// with the opposite edges. Clamped to the triangle; x < 0 where it does not meet the plane.
+/// Where the direction meets the triangle: its weights on the three vertices are in proportion to the volumes that it
+/// spans with the opposite edges. Clamped to the triangle; x < 0 where it does not meet the plane.
 FN vec2 barycentrics_along(IN(TriangleView) view, vec3 direction) {
     float side = view.volume < 0.0f ? -1.0f : 1.0f;
     float weight_a = max(side * dot(direction, cross(view.b, view.e2 - view.e1)), 0.0f);
@@ -157,8 +160,8 @@ FN vec2 barycentrics_along(IN(TriangleView) view, vec3 direction) {
     return vec2(b_1, min(weight_c / sum, 1.0f - b_1));
 }
 
-/// A point on the triangle: by solid angle where that is between SPHERICAL_TRIANGLE_MIN and _MAX, else by area. pdf 0 for
-/// degenerate triangles and from within the plane.
+/// A point on the triangle: by solid angle where that is between SPHERICAL_TRIANGLE_MIN and _MAX, else by area. pdf 0
+/// for degenerate triangles and from within the plane.
 FN TriangleSample sample_triangle_solid_angle(vec3 reference, vec3 v0, vec3 e1, vec3 e2, vec2 u) {
     TriangleView view = triangle_view(reference, v0, e1, e2);
     TriangleSample result;

@@ -10,6 +10,9 @@
 
 namespace diptych {
 
+/// Whether a material's emission can be anything but zero.
+bool emits(const Material& material);
+
 /// FEATURE_… bits (scene_features.h) that this render needs; every bit where settings.generic.
 std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings);
 

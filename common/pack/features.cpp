@@ -1,0 +1,105 @@
+#include "pack/features.h"
+
+#include <array>
+#include <utility>
+
+#include "bsdf.h"
+#include "scene_features.h"
+
+namespace diptych {
+namespace {
+
+std::array<const TextureSlot*, 6> slots_of(const Material& m) {
+    return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+            &m.emission_texture,   &m.specular_texture,           &m.specular_color_texture};
+}
+
+std::uint32_t material_features(const Material& m) {
+    std::uint32_t bits = 0;
+    for (const TextureSlot* slot : slots_of(m)) {
+        if (slot->texture != none) {
+            bits |= shared::FEATURE_TEXTURES;
+            bits |= slot->uv_set == 1 ? shared::FEATURE_SECOND_UV : 0U;
+        }
+    }
+    bits |= m.normal_texture.texture != none ? shared::FEATURE_NORMAL_MAPS : 0U;
+    bits |= m.alpha_mode != AlphaMode::opaque ? shared::FEATURE_ALPHA : 0U;
+    if (emits(m)) {
+        bits |= shared::FEATURE_EMISSIVE;
+        const TextureSlot& emission = m.unlit ? m.base_color_texture : m.emission_texture;
+        const bool varies = emission.texture != none || m.alpha_mode != AlphaMode::opaque;
+        bits |= varies ? shared::FEATURE_EMISSIVE_TEXTURES : 0U;
+    }
+    // A texture can bring any roughness down to that of a mirror.
+    const bool can_be_mirror =
+        m.metallic_roughness_texture.texture != none || m.roughness * m.roughness < shared::ALPHA_MIRROR;
+    bits |= !m.unlit && can_be_mirror ? shared::FEATURE_MIRRORS : 0U;
+    return bits;
+}
+
+std::uint32_t light_features(const Scene& scene) {
+    std::uint32_t bits = scene.lights.empty() ? 0U : shared::FEATURE_PUNCTUAL;
+    if (scene.environment.kind == Environment::Kind::constant) {
+        bits |= shared::FEATURE_CONSTANT_ENVIRONMENT;
+    } else if (scene.environment.kind == Environment::Kind::map) {
+        bits |= shared::FEATURE_ENVIRONMENT_MAP;
+    }
+    return bits;
+}
+
+}  // namespace
+
+bool emits(const Material& material) {
+    const glm::vec3 radiance = material.unlit ? glm::vec3(material.base_color) : material.emission;
+    return radiance.x > 0 || radiance.y > 0 || radiance.z > 0;
+}
+
+std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings) {
+    if (settings.generic) {
+        return ~0U;
+    }
+    std::uint32_t bits = light_features(scene);
+    std::vector<bool> used(scene.meshes.size(), false);
+    for (const Instance& instance : scene.instances) {
+        used[static_cast<std::size_t>(instance.mesh)] = true;
+    }
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        for (const Primitive& primitive : scene.meshes[i].primitives) {
+            if (used[i] && !primitive.triangles.empty()) {
+                const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+                bits |= material_features(material);
+                bits |= primitive.colors.empty() ? 0U : shared::FEATURE_VERTEX_COLORS;
+                // The radiance of an unlit material also varies with the vertex colours.
+                const bool colored_light = emits(material) && material.unlit && !primitive.colors.empty();
+                bits |= colored_light ? shared::FEATURE_EMISSIVE_TEXTURES : 0U;
+            }
+        }
+    }
+    bits |= settings.brdf == BrdfModel::ggx ? shared::FEATURE_GGX : shared::FEATURE_BLINN_PHONG;
+    if (!scene.cameras.empty()) {
+        const Camera& camera = scene.cameras[static_cast<std::size_t>(settings.camera)];
+        bits |= camera.orthographic ? shared::FEATURE_ORTHOGRAPHIC : 0U;
+        bits |= camera.lens_radius > 0 ? shared::FEATURE_THIN_LENS : 0U;
+    }
+    bits |= settings.standard_error ? shared::FEATURE_STANDARD_ERROR : 0U;
+    bits |= settings.first_hit_layers ? shared::FEATURE_FIRST_HIT_LAYERS : 0U;
+    const bool has_light = (bits & (shared::FEATURE_EMISSIVE | shared::FEATURE_CONSTANT_ENVIRONMENT |
+                                    shared::FEATURE_ENVIRONMENT_MAP | shared::FEATURE_PUNCTUAL)) != 0;
+    const bool samples_lights =
+        settings.integrator == Integrator::brdf ? (bits & shared::FEATURE_PUNCTUAL) != 0 : has_light;
+    bits |= samples_lights ? shared::FEATURE_LIGHT_SAMPLING : 0U;
+    return bits;
+}
+
+std::vector<std::string> feature_names(std::uint32_t features) {
+    std::vector<std::string> names;
+#define ADD_NAME(name, constant, bit)           \
+    if ((features & shared::constant) != 0) {   \
+        names.emplace_back(name);               \
+    }
+    FEATURE_LIST(ADD_NAME)
+#undef ADD_NAME
+    return names;
+}
+
+}  // namespace diptych

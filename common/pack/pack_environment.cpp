@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "pack/alias_table_build.h"
+#include "pack/pack_parts.h"
+
+namespace diptych {
+namespace {
+
+double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+/// Mean over one texel's area of what bilinear filtering makes of the map: the tent over the texel integrates to (1, 6, 1)/8 each
+/// way. So a black texel beside a bright one keeps a probability.
+double filtered_luminance(const Environment& e, int x, int y) {
+    constexpr std::array<double, 3> tent = {0.125, 0.75, 0.125};
+    double sum = 0;
+    for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i) {
+            const int column = (x + i + e.width) % e.width;
+            const int row = std::clamp(y + j, 0, e.height - 1);
+            const auto texel = static_cast<std::size_t>(row) * static_cast<std::size_t>(e.width) +
+                               static_cast<std::size_t>(column);
+            const double weight = tent[static_cast<std::size_t>(i + 1)] * tent[static_cast<std::size_t>(j + 1)];
+            sum += weight * luminance(glm::dvec3(e.texels[texel]) * glm::dvec3(e.scale));
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
+double pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
+    const Environment& e = scene.environment;
+    shared::Environment& out = packed.constants.environment;
+    out.scale = e.scale;
+    out.rotation = {static_cast<float>(std::cos(e.rotation)), static_cast<float>(std::sin(e.rotation))};
+    if (e.kind == Environment::Kind::none) {
+        out.kind = shared::ENVIRONMENT_NONE;
+        return 0;
+    }
+    if (e.kind == Environment::Kind::constant) {
+        out.kind = shared::ENVIRONMENT_CONSTANT;
+        return luminance(glm::dvec3(e.scale));
+    }
+    out.kind = shared::ENVIRONMENT_MAP;
+    out.size = {static_cast<std::uint32_t>(e.width), static_cast<std::uint32_t>(e.height)};
+    std::vector<double> weights;
+    weights.reserve(e.texels.size());
+    double mean = 0;
+    for (int y = 0; y < e.height; ++y) {
+        const double top = std::numbers::pi * y / e.height;
+        const double bottom = std::numbers::pi * (y + 1) / e.height;
+        const double solid_angle = 2 * std::numbers::pi / e.width * (std::cos(top) - std::cos(bottom));
+        for (int x = 0; x < e.width; ++x) {
+            weights.push_back(filtered_luminance(e, x, y) * solid_angle);
+            mean += weights.back() / (4 * std::numbers::pi);
+        }
+    }
+    const std::vector<double> pmf = pick_probabilities(weights, 0.0);
+    packed.environment_texels.reserve(e.texels.size());
+    for (std::size_t i = 0; i < e.texels.size(); ++i) {
+        packed.environment_texels.emplace_back(e.texels[i], static_cast<float>(pmf[i]));
+    }
+    if (settings.integrator != Integrator::brdf && mean > 0) {
+        packed.environment_table = build_alias_table(pmf);
+    }
+    return mean;
+}
+
+}  // namespace diptych

@@ -1,0 +1,89 @@
+#include <cmath>
+
+#include "pack/pack_parts.h"
+
+namespace diptych {
+namespace {
+
+template <class T>
+std::uint32_t append(std::vector<T>& buffer, const std::vector<T>& values, bool wanted, const Scene& scene,
+                     const char* what) {
+    if (values.empty() || !wanted) {
+        return shared::NONE;
+    }
+    require_indexable(scene, buffer.size() + values.size(), what);
+    const auto first = static_cast<std::uint32_t>(buffer.size());
+    buffer.insert(buffer.end(), values.begin(), values.end());
+    return first;
+}
+
+}  // namespace
+
+void pack_meshes(const Scene& scene, PackedScene& packed) {
+    const auto has = [&](std::uint32_t bit) { return (packed.features & bit) != 0; };
+    std::vector<bool> used(scene.meshes.size(), false);
+    for (const Instance& instance : scene.instances) {
+        used[static_cast<std::size_t>(instance.mesh)] = true;
+    }
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        MeshRange range{static_cast<std::uint32_t>(packed.geometries.size()), 0};
+        for (const Primitive& primitive : scene.meshes[i].primitives) {
+            if (!used[i] || primitive.triangles.empty()) {
+                continue;
+            }
+            const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+            shared::Geometry g{};
+            g.first_triangle = append(packed.triangles, primitive.triangles, true, scene, "triangles");
+            g.first_vertex = append(packed.positions, primitive.positions, true, scene, "vertices");
+            g.first_normal = append(packed.normals, primitive.normals, true, scene, "normals");
+            const bool mapped = has(shared::FEATURE_NORMAL_MAPS) && material.normal_texture.texture != none;
+            g.first_tangent = append(packed.tangents, primitive.tangents, mapped, scene, "tangents");
+            const bool textured = has(shared::FEATURE_TEXTURES);
+            g.first_uv_0 = append(packed.uvs, primitive.uvs[0], textured, scene, "texture coordinates");
+            g.first_uv_1 = append(packed.uvs, primitive.uvs[1], textured && has(shared::FEATURE_SECOND_UV), scene,
+                                  "texture coordinates");
+            g.first_color = append(packed.colors, primitive.colors, true, scene, "vertex colours");
+            g.material = static_cast<std::uint32_t>(primitive.material);
+            packed.geometries.push_back(g);
+            packed.geometry_extents.push_back({static_cast<std::uint32_t>(primitive.triangles.size()),
+                                               static_cast<std::uint32_t>(primitive.positions.size()),
+                                               material.alpha_mode != AlphaMode::opaque});
+            ++range.geometry_count;
+        }
+        packed.meshes.push_back(range);
+    }
+}
+
+void pack_instances(const Scene& scene, const glm::dvec3& origin, PackedScene& packed) {
+    for (const Instance& instance : scene.instances) {
+        const MeshRange& range = packed.meshes[static_cast<std::size_t>(instance.mesh)];
+        if (range.geometry_count == 0) {
+            continue;
+        }
+        const glm::dmat4& m = instance.object_to_world;
+        const glm::dmat3 linear(m);
+        const double determinant = glm::determinant(linear);
+        const double scale = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+        // Against the columns' lengths, so that small scales are no reason to refuse.
+        if (!(std::abs(determinant) > 1e-12 * scale) || !std::isfinite(scale)) {
+            packed.warnings.push_back(scene.name + ": instance \"" + instance.name +
+                                      "\": its transform flattens it to nothing; left out");
+            continue;
+        }
+        shared::Instance out{};
+        const auto row = [&](int r) {
+            return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r] - origin[r]));
+        };
+        out.row_0 = row(0);
+        out.row_1 = row(1);
+        out.row_2 = row(2);
+        out.first_geometry = range.first_geometry;
+        out.first_emitter_slot = shared::NONE;
+        out.mirrored = determinant < 0 ? 1U : 0U;
+        packed.instances.push_back(out);
+        packed.instance_meshes.push_back(static_cast<std::uint32_t>(instance.mesh));
+    }
+    require_indexable(scene, packed.instances.size(), "instances");
+}
+
+}  // namespace diptych

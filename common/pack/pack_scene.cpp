@@ -1,0 +1,58 @@
+#include <cmath>
+
+#include "error.h"
+#include "pack/features.h"
+#include "pack/pack_parts.h"
+
+namespace diptych {
+namespace {
+
+glm::dvec3 rebase_origin(const Scene& scene, const RenderSettings& settings) {
+    if (scene.cameras.empty()) {
+        return glm::dvec3(0);
+    }
+    return glm::dvec3(scene.cameras[static_cast<std::size_t>(settings.camera)].camera_to_world[3]);
+}
+
+void pack_settings(const RenderSettings& settings, shared::RenderConstants& c) {
+    c.size = {static_cast<std::uint32_t>(settings.width), static_cast<std::uint32_t>(settings.height)};
+    c.seed = settings.seed;
+    c.sampler = static_cast<std::uint32_t>(settings.sampler);
+    c.sample_count = settings.sample_count;
+    c.max_depth = settings.max_depth;
+    c.integrator = static_cast<std::uint32_t>(settings.integrator);
+    c.brdf = static_cast<std::uint32_t>(settings.brdf);
+    c.mis = static_cast<std::uint32_t>(settings.mis);
+}
+
+}  // namespace
+
+void require_indexable(const Scene& scene, std::size_t size, const char* what) {
+    if (size >= shared::NONE) {
+        throw Error(scene.name + ": " + what + ": " + std::to_string(size) + " are more than 32-bit indices can name");
+    }
+}
+
+std::uint64_t buffer_bytes(const PackedScene& packed) {
+    std::uint64_t bytes = 0;
+#define ADD_BYTES(Type, name) bytes += packed.name.size() * sizeof(packed.name[0]);
+    SCENE_BUFFERS(ADD_BYTES)
+#undef ADD_BYTES
+    return bytes;
+}
+
+PackedScene pack_scene(const Scene& scene, const RenderSettings& settings) {
+    PackedScene packed;
+    packed.features = needed_features(scene, settings);
+    pack_settings(settings, packed.constants);
+    const glm::dvec3 origin = rebase_origin(scene, settings);
+    pack_materials(scene, packed);
+    pack_meshes(scene, packed);
+    pack_instances(scene, origin, packed);
+    pack_camera(scene, settings, origin, packed);
+    const double environment_luminance = pack_environment(scene, settings, packed);
+    pack_lights(scene, settings, origin, environment_luminance, packed);
+    return packed;
+}
+
+}  // namespace diptych

@@ -1,0 +1,186 @@
+// Lights: picked by power through one alias table; sampled; and the density of having been sampled, found from a hit's ids in O(1).
+#ifndef LIGHT_KERNEL_H
+#define LIGHT_KERNEL_H
+
+#include "surface.kernel.h"
+
+/// A point on a light as `reference` sees it.
+struct LightSample {
+    vec3 direction;  // unit, toward the light
+    vec3 radiance;   // arriving unoccluded; of a delta light: already divided by r², to be divided by pdf alone
+    float pdf;       // solid angle times pick; of a delta light: pick alone. 0: no light
+    bool delta;      // no other strategy can find it
+    bool distant;    // at infinity: no end point
+    vec3 end;        // where the shadow ray ends, offset from the light's surface
+};
+
+FN LightSample no_light() {
+    LightSample s;
+    s.direction = vec3(0.0f, 0.0f, 1.0f);
+    s.radiance = vec3(0.0f, 0.0f, 0.0f);
+    s.pdf = 0.0f;
+    s.delta = false;
+    s.distant = false;
+    s.end = vec3(0.0f, 0.0f, 0.0f);
+    return s;
+}
+
+// Environment
+
+FN vec4 environment_texel(int x, int y) {
+    int w = int(constants.environment.size.x);
+    int h = int(constants.environment.size.y);
+    int column = x < 0 ? x + w : (x >= w ? x - w : x);
+    int row = clamp(y, 0, h - 1);
+    return load_environment_texels(uint(row * w + column));
+}
+
+/// Radiance from infinity against `direction`, bilinear between texel centres.
+FN vec3 environment_radiance(vec3 direction) {
+    if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
+        vec2 uv = environment_uv(direction, constants.environment.rotation);
+        float x = uv.x * float(constants.environment.size.x) - 0.5f;
+        float y = uv.y * float(constants.environment.size.y) - 0.5f;
+        float left = floor(x);
+        float top = floor(y);
+        float s = x - left;
+        float t = y - top;
+        vec3 a = xyz(environment_texel(int(left), int(top)));
+        vec3 b = xyz(environment_texel(int(left) + 1, int(top)));
+        vec3 c = xyz(environment_texel(int(left), int(top) + 1));
+        vec3 d = xyz(environment_texel(int(left) + 1, int(top) + 1));
+        return constants.environment.scale * ((1.0f - t) * ((1.0f - s) * a + s * b) + t * ((1.0f - s) * c + s * d));
+    }
+    if (feature(FEATURE_CONSTANT_ENVIRONMENT) && constants.environment.kind == ENVIRONMENT_CONSTANT) {
+        return constants.environment.scale;
+    }
+    return vec3(0.0f, 0.0f, 0.0f);
+}
+
+/// Density per solid angle, pick included, with which sample_environment finds `direction`.
+FN float pdf_environment(vec3 direction) {
+    if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
+        uvec2 size = constants.environment.size;
+        vec2 uv = environment_uv(direction, constants.environment.rotation);
+        int x = int(min(uv.x * float(size.x), float(size.x - 1u)));
+        int y = int(min(uv.y * float(size.y), float(size.y - 1u)));
+        float sin_theta = safe_sqrt(1.0f - direction.y * direction.y);
+        return constants.environment.pmf * pdf_environment_solid_angle(environment_texel(x, y).w, size, sin_theta);
+    }
+    return constants.environment.pmf * (0.25f * INV_PI);
+}
+
+FN LightSample sample_environment(IN(Sampler) random, uint dimension, vec2 u) {
+    LightSample s = no_light();
+    s.distant = true;
+    if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
+        uvec2 size = constants.environment.size;
+        uvec2 bits = sample_bits_2d(random, dimension + DIMENSION_ENVIRONMENT);
+        uint column = alias_column(bits.x, size.x * size.y);
+        uint texel = alias_pick(load_environment_table(column), column, bits.y);
+        float x = (float(texel % size.x) + u.x) / float(size.x);
+        float y = (float(texel / size.x) + u.y) / float(size.y);
+        s.direction = environment_direction(vec2(x, y), constants.environment.rotation);
+    } else {
+        s.direction = sample_uniform_sphere(u);
+    }
+    s.pdf = pdf_environment(s.direction);
+    s.radiance = environment_radiance(s.direction);
+    return s;
+}
+
+// Emissive triangles
+
+FN vec3 emitter_front(IN(EmissiveTriangle) light) {
+    vec3 n = normalize_or(cross(light.edge_1, light.edge_2), vec3(0.0f, 0.0f, 0.0f));
+    return (light.flags & EMITTER_MIRRORED) != 0u ? -n : n;
+}
+
+/// Density per solid angle, pick included, with which sample_emitter finds `point` of the triangle from `reference`.
+FN float pdf_emitter(IN(EmissiveTriangle) light, vec3 reference, vec3 point) {
+    return light.pmf * pdf_triangle_solid_angle(reference, light.vertex_0, light.edge_1, light.edge_2, point);
+}
+
+/// Emitted radiance at barycentrics of a light, times its coverage where it is not opaque: a ray that finds it there would have
+/// passed with the complement.
+FN vec3 emitter_radiance(IN(EmissiveTriangle) light, vec2 barycentrics) {
+    if (!feature(FEATURE_EMISSIVE_TEXTURES) || (light.flags & EMITTER_VARIES) == 0u) {
+        return light.radiance;
+    }
+    Geometry geometry = load_geometries(light.geometry);
+    Material material = load_materials(geometry.material);
+    MeshPoint p = mesh_point(geometry, light.primitive, barycentrics);
+    vec3 radiance = material_emission(material, p);
+    if (feature(FEATURE_ALPHA) && (material.flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u) {
+        radiance = radiance * opacity(material, base_color(material, p).w);
+    }
+    return radiance;
+}
+
+FN LightSample sample_emitter(uint id, vec3 reference, vec2 u) {
+    LightSample s = no_light();
+    EmissiveTriangle light = load_emissive_triangles(id);
+    TriangleSample t = sample_triangle_solid_angle(reference, light.vertex_0, light.edge_1, light.edge_2, u);
+    vec3 point = light.vertex_0 + t.barycentrics.x * light.edge_1 + t.barycentrics.y * light.edge_2;
+    vec3 to_light = point - reference;
+    vec3 front = emitter_front(light);
+    float facing = -dot(front, to_light);
+    if (!(t.pdf > 0.0f) || (facing <= 0.0f && (light.flags & EMITTER_TWO_SIDED) == 0u)) {
+        return s;
+    }
+    s.direction = normalize_or(to_light, front);
+    s.radiance = emitter_radiance(light, t.barycentrics);
+    s.pdf = light.pmf * t.pdf;
+    s.end = offset_ray(point, facing < 0.0f ? -front : front);
+    return s;
+}
+
+// Punctual lights (KHR_lights_punctual)
+
+FN LightSample sample_punctual(uint index, vec3 reference) {
+    LightSample s = no_light();
+    PunctualLight light = load_punctual_lights(index);
+    s.delta = true;
+    s.pdf = light.pmf;
+    if (light.type == PUNCTUAL_DIRECTIONAL) {
+        s.distant = true;
+        s.direction = -light.direction;
+        s.radiance = light.intensity;
+        return s;
+    }
+    vec3 to_light = light.position - reference;
+    float distance_squared = dot(to_light, to_light);
+    if (!(distance_squared > 0.0f)) {
+        return no_light();
+    }
+    s.direction = to_light * inversesqrt(distance_squared);
+    s.end = light.position;
+    s.radiance = light.intensity / distance_squared;
+    if (light.type == PUNCTUAL_SPOT) {
+        float falloff = clamp(-dot(s.direction, light.direction) * light.cone_scale + light.cone_offset, 0.0f, 1.0f);
+        s.radiance = s.radiance * (falloff * falloff);
+    }
+    return s;
+}
+
+/// One light in proportion to its power (and a defensive share of uniform picking), and a point on it. `dimension` is the vertex's
+/// first (dimensions.h).
+FN LightSample sample_light(vec3 reference, IN(Sampler) random, uint dimension) {
+    if (constants.light_count == 0u) {
+        return no_light();
+    }
+    uvec2 bits = sample_bits_2d(random, dimension + DIMENSION_LIGHT_PICK);
+    vec2 u = sample_2d(random, dimension + DIMENSION_LIGHT_POSITION);
+    uint column = alias_column(bits.x, constants.light_count);
+    uint id = alias_pick(load_light_table(column), column, bits.y);
+    if (feature(FEATURE_EMISSIVE) && id < constants.emissive_triangle_count) {
+        return sample_emitter(id, reference, u);
+    }
+    id -= constants.emissive_triangle_count;
+    if (feature(FEATURE_PUNCTUAL) && id < constants.punctual_light_count) {
+        return sample_punctual(id, reference);
+    }
+    return sample_environment(random, dimension, u);
+}
+
+#endif

@@ -1,0 +1,199 @@
+// The path integrator (Kajiya 1986; Veach 1997) in its three forms, which share one integrand and differ in how they find light:
+// `brdf` by sampling the material, `direct` by sampling lights, `path` by both, weighted by MIS. What only one strategy can find
+// (punctual lights; lights seen directly or in a mirror) counts fully in all three.
+#ifndef PATH_KERNEL_H
+#define PATH_KERNEL_H
+
+#include "alpha.kernel.h"
+#include "light.kernel.h"
+
+/// One sample of one pixel.
+struct PathSample {
+    vec3 radiance;
+    uint rays;
+    FirstHit first_hit;
+};
+
+/// Russian roulette starts at this vertex and never kills with a probability below 5 %.
+FN float survival_probability(vec3 throughput, uint depth) {
+    return depth < 3u ? 1.0f : min(max_component(throughput), 0.95f);
+}
+
+/// Names one ray for the hash that decides stochastic alpha.
+FN uint ray_alpha_key(IN(Sampler) random, uint ray) {
+    if (!feature(FEATURE_ALPHA)) {
+        return 0u;
+    }
+    return pcg4d(uvec4(random.pixel.x | (random.pixel.y << 16), random.sample_index, ray, random.seed ^ 0xa1fa0000u)).x;
+}
+
+/// Weight of finding a light by sampling the material with density `pdf` where light sampling had density `pdf_light`.
+FN float bsdf_sampling_weight(float pdf, float pdf_light) {
+    if (constants.integrator == INTEGRATOR_PATH) {
+        return mis_weight(constants.mis, pdf, pdf_light);
+    }
+    return constants.integrator == INTEGRATOR_BRDF ? 1.0f : 0.0f;
+}
+
+FN float light_sampling_weight(IN(LightSample) light, float pdf) {
+    if (light.delta || constants.integrator != INTEGRATOR_PATH) {
+        return 1.0f;
+    }
+    return mis_weight(constants.mis, light.pdf, pdf);
+}
+
+/// Whether a ray that found light by sampling the material, from a vertex that could also sample lights, needs the light's pdf.
+FN bool needs_light_pdf() { return feature(FEATURE_LIGHT_SAMPLING) && constants.integrator == INTEGRATOR_PATH; }
+
+/// Density with which `reference` would have sampled this point of a surface as a light, from the hit's ids.
+FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
+    if (!feature(FEATURE_EMISSIVE) || s.emitter_slot == NONE) {
+        return 0.0f;
+    }
+    uint first = load_emitter_slots(s.emitter_slot);
+    if (first == NONE) {
+        return 0.0f;
+    }
+    return pdf_emitter(load_emissive_triangles(first + s.primitive), reference, s.position);
+}
+
+/// Light that arrives at a surface from one sampled light, scattered to `wo`.
+FN vec3 direct_light(IN(Surface) s, IN(SurfaceBsdf) bsdf, vec3 wo, IN(Sampler) random, uint dimension, uint depth,
+                     INOUT(uint) rays) {
+    LightSample light = sample_light(s.position, random, dimension);
+    if (!(light.pdf > 0.0f) || !(max_component(light.radiance) > 0.0f)) {
+        return vec3(0.0f, 0.0f, 0.0f);
+    }
+    vec3 f = surface_bsdf_eval(bsdf, wo, light.direction, features());
+    if (!(max_component(f) > 0.0f)) {
+        return vec3(0.0f, 0.0f, 0.0f);
+    }
+    float pdf = needs_light_pdf() ? surface_bsdf_pdf(bsdf, wo, light.direction, features()) : 0.0f;
+    float side = dot(light.direction, bsdf.geometric_normal) < 0.0f ? -1.0f : 1.0f;
+    vec3 origin = offset_ray(s.position, side * bsdf.geometric_normal);
+    vec3 direction = light.distant ? light.direction : light.end - origin;
+    float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
+    rays += 1u;
+    if (trace_any(origin, direction, t_max, ray_alpha_key(random, 2u * depth + 1u))) {
+        return vec3(0.0f, 0.0f, 0.0f);
+    }
+    return f * light.radiance * (light_sampling_weight(light, pdf) / light.pdf);
+}
+
+FN PathSample trace_path(uvec2 pixel, uint sample_index) {
+    Sampler random;
+    random.pixel = pixel;
+    random.sample_index = sample_index;
+    random.seed = constants.seed;
+    random.kind = constants.sampler;
+    random.sample_count = constants.sample_count;
+
+    vec2 jitter = sample_2d(random, DIMENSION_FILM);
+    vec2 film = vec2((float(pixel.x) + jitter.x) / float(constants.size.x),
+                     (float(pixel.y) + jitter.y) / float(constants.size.y));
+    vec2 lens = vec2(0.5f, 0.5f);
+    if (feature(FEATURE_THIN_LENS)) {
+        lens = sample_2d(random, DIMENSION_LENS);
+    }
+    vec3 origin;
+    vec3 direction;
+    camera_ray(constants.camera, film, lens, feature(FEATURE_THIN_LENS), feature(FEATURE_ORTHOGRAPHIC), origin, direction);
+
+    PathSample result;
+    result.radiance = vec3(0.0f, 0.0f, 0.0f);
+    result.rays = 0u;
+    result.first_hit.albedo = vec3(0.0f, 0.0f, 0.0f);
+    result.first_hit.normal = vec3(0.0f, 0.0f, 0.0f);
+    result.first_hit.depth = 0.0f;
+
+    vec3 throughput = vec3(1.0f, 1.0f, 1.0f);
+    vec3 reference = origin;        // the last vertex, from which lights were sampled too
+    float pdf_direction = 0.0f;     // of `direction`, per solid angle
+    bool only_strategy = true;      // no light sampling could have found what this ray finds
+    for (uint depth = 0u; depth <= constants.max_depth; depth += 1u) {
+        Hit hit = trace_closest(origin, direction, ray_alpha_key(random, 2u * depth));
+        result.rays += 1u;
+        if (hit.instance == NONE) {
+            vec3 radiance = environment_radiance(direction);
+            if (!only_strategy) {
+                float pdf_light = needs_light_pdf() ? pdf_environment(direction) : 0.0f;
+                radiance = radiance * bsdf_sampling_weight(pdf_direction, pdf_light);
+            }
+            result.radiance += throughput * radiance;
+            break;
+        }
+        vec3 wo = -direction;
+        Instance instance = load_instances(hit.instance);
+        Surface surface = load_surface(hit, instance, wo);
+        Material material = load_materials(surface.mesh.geometry.material);
+
+        if (feature(FEATURE_EMISSIVE) && (material.flags & MATERIAL_EMISSIVE) != 0u &&
+            (dot(surface.normal, wo) > 0.0f || (material.flags & MATERIAL_DOUBLE_SIDED) != 0u)) {
+            float weight = 1.0f;
+            if (!only_strategy) {
+                float pdf_light = needs_light_pdf() ? pdf_light_of_hit(surface, reference) : 0.0f;
+                weight = bsdf_sampling_weight(pdf_direction, pdf_light);
+            }
+            result.radiance += throughput * (weight * material_emission(material, surface.mesh));
+        }
+
+        SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
+        if (feature(FEATURE_FIRST_HIT_LAYERS) && depth == 0u) {
+            result.first_hit.albedo = xyz(base_color(material, surface.mesh));
+            result.first_hit.normal = bsdf.mapped_normal;
+            result.first_hit.depth = hit.t;
+        }
+        if (depth == constants.max_depth || (material.flags & MATERIAL_UNLIT) != 0u) {
+            break;
+        }
+
+        uint dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
+        bool samples_lights = feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters);
+        if (samples_lights) {
+            result.radiance += throughput * direct_light(surface, bsdf, wo, random, dimension, depth, result.rays);
+        }
+
+        vec2 u_lobe = sample_2d(random, dimension + DIMENSION_LOBE);
+        vec2 u_direction = sample_2d(random, dimension + DIMENSION_BSDF_DIRECTION);
+        BsdfSample next = surface_bsdf_sample(bsdf, wo, u_lobe, u_direction, features());
+        throughput = throughput * next.weight;
+        if (!(next.pdf > 0.0f) || !(max_component(throughput) > 0.0f)) {
+            break;
+        }
+        only_strategy = next.delta != 0u;
+        if (constants.integrator == INTEGRATOR_DIRECT && !only_strategy && depth + 1u == constants.max_depth) {
+            break;  // the last ray could only find light that has been sampled
+        }
+        float survival = survival_probability(throughput, depth);
+        if (survival < 1.0f) {
+            float u = sample_1d(random, dimension + DIMENSION_ROULETTE);
+            if (!(u < survival)) {
+                break;
+            }
+            throughput = throughput * (1.0f / survival);
+        }
+        pdf_direction = next.pdf;
+        reference = surface.position;
+        direction = next.direction;
+        float side = dot(direction, bsdf.geometric_normal) < 0.0f ? -1.0f : 1.0f;
+        origin = offset_ray(surface.position, side * bsdf.geometric_normal);
+    }
+    return result;
+}
+
+/// Adds samples first_sample .. first_sample + sample_count - 1 of a pixel to its film.
+FN void render_pixel(uvec2 pixel, uint first_sample, uint sample_count, INOUT(FilmPixel) film, INOUT(FilmMoments) moments,
+                     INOUT(FilmFirstHit) first_hit) {
+    for (uint i = 0u; i < sample_count; i += 1u) {
+        PathSample s = trace_path(pixel, first_sample + i);
+        bool kept = film_add(film, s.radiance, s.rays);
+        if (feature(FEATURE_STANDARD_ERROR) && kept) {
+            film_add_moments(moments, s.radiance, film.samples);
+        }
+        if (feature(FEATURE_FIRST_HIT_LAYERS)) {
+            film_add_first_hit(first_hit, s.first_hit);
+        }
+    }
+}
+
+#endif

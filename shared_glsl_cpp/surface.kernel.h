@@ -1,0 +1,128 @@
+// From a hit's ids to the surface that is shaded.
+#ifndef SURFACE_KERNEL_H
+#define SURFACE_KERNEL_H
+
+#include "texture.kernel.h"
+
+/// A hit rebuilt from its ids and barycentrics (Wächter and Binder 2019), in world space.
+struct Surface {
+    vec3 position;
+    vec3 normal;       // geometric, unit, of the front face
+    MeshPoint mesh;
+    uint instance;
+    uint emitter_slot; // into emitter_slots; NONE where the instance emits nothing
+    uint primitive;
+};
+
+FN vec3 transform_vector(IN(Instance) i, vec3 v) {
+    return vec3(dot(xyz(i.row_0), v), dot(xyz(i.row_1), v), dot(xyz(i.row_2), v));
+}
+
+FN vec3 transform_point(IN(Instance) i, vec3 p) {
+    return transform_vector(i, p) + vec3(i.row_0.w, i.row_1.w, i.row_2.w);
+}
+
+/// Normals go by the cofactor matrix, the inverse transpose up to a positive factor once a mirrored instance's sign is put back.
+FN vec3 transform_normal(IN(Instance) i, vec3 n) {
+    vec3 r0 = xyz(i.row_0);
+    vec3 r1 = xyz(i.row_1);
+    vec3 r2 = xyz(i.row_2);
+    vec3 m = vec3(dot(cross(r1, r2), n), dot(cross(r2, r0), n), dot(cross(r0, r1), n));
+    return i.mirrored != 0u ? -m : m;
+}
+
+/// v / |v|, or the fallback where v has no direction.
+FN vec3 normalize_or(vec3 v, vec3 fallback) {
+    float scale = max(max(abs(v.x), abs(v.y)), abs(v.z));
+    if (!(scale > 1e-37f && scale < INFINITE_DISTANCE)) {
+        return fallback;
+    }
+    vec3 w = v * (1.0f / scale);
+    return w * inversesqrt(dot(w, w));
+}
+
+FN Surface load_surface(IN(Hit) hit, IN(Instance) instance, vec3 wo) {
+    Surface s;
+    Geometry g = load_geometries(instance.first_geometry + hit.geometry);
+    s.mesh = mesh_point(g, hit.primitive, hit.barycentrics);
+    vec3 a = load_positions(g.first_vertex + s.mesh.triangle.x);
+    vec3 b = load_positions(g.first_vertex + s.mesh.triangle.y);
+    vec3 c = load_positions(g.first_vertex + s.mesh.triangle.z);
+    PRECISE vec3 local = a + hit.barycentrics.x * (b - a) + hit.barycentrics.y * (c - a);
+    s.position = transform_point(instance, local);
+    vec3 n = cross(transform_vector(instance, b - a), transform_vector(instance, c - a));
+    s.normal = normalize_or(instance.mirrored != 0u ? -n : n, wo);
+    s.instance = hit.instance;
+    s.primitive = hit.primitive;
+    s.emitter_slot =
+        instance.first_emitter_slot == NONE ? NONE : instance.first_emitter_slot + hit.geometry;
+    return s;
+}
+
+/// Radiance that a point of a material emits from a side that emits; unlit materials emit their base colour.
+FN vec3 material_emission(IN(Material) material, IN(MeshPoint) p) {
+    if ((material.flags & MATERIAL_UNLIT) != 0u) {
+        return xyz(base_color(material, p));
+    }
+    return material.emission * xyz(slot_value(material.emission_slot, p));
+}
+
+/// The interpolated normal, on the front side; the geometric one where the mesh has none.
+FN vec3 interpolated_normal(IN(Surface) s, IN(Instance) instance) {
+    uint first = s.mesh.geometry.first_normal;
+    if (first == NONE) {
+        return s.normal;
+    }
+    vec3 a = load_normals(first + s.mesh.triangle.x);
+    vec3 b = load_normals(first + s.mesh.triangle.y);
+    vec3 c = load_normals(first + s.mesh.triangle.z);
+    vec3 n = s.mesh.weights.x * a + s.mesh.weights.y * b + s.mesh.weights.z * c;
+    return normalize_or(transform_normal(instance, n), s.normal);
+}
+
+/// The normal that a normal map gives about `normal`.
+FN vec3 mapped_normal(IN(Surface) s, IN(Instance) instance, IN(Material) material, vec3 normal) {
+    uint first = s.mesh.geometry.first_tangent;
+    if (first == NONE) {
+        return normal;
+    }
+    vec4 a = load_tangents(first + s.mesh.triangle.x);
+    vec4 b = load_tangents(first + s.mesh.triangle.y);
+    vec4 c = load_tangents(first + s.mesh.triangle.z);
+    vec3 along = transform_vector(
+        instance, s.mesh.weights.x * xyz(a) + s.mesh.weights.y * xyz(b) + s.mesh.weights.z * xyz(c));
+    Frame fallback = frame_from_normal(normal);
+    vec3 tangent = normalize_or(along - dot(along, normal) * normal, fallback.tangent);
+    float handedness = (a.w < 0.0f) != (instance.mirrored != 0u) ? -1.0f : 1.0f;
+    vec3 bitangent = cross(normal, tangent) * handedness;
+    vec3 m = xyz(slot_value(material.normal_slot, s.mesh)) * 2.0f - vec3(1.0f, 1.0f, 1.0f);
+    vec3 n = m.x * material.normal_scale * tangent + m.y * material.normal_scale * bitangent + m.z * normal;
+    return normalize_or(n, normal);
+}
+
+/// What scatters light at a surface seen from `wo`; its normals all face wo's side.
+FN SurfaceBsdf load_bsdf(IN(Surface) s, IN(Instance) instance, IN(Material) material, vec3 wo) {
+    SurfaceBsdf bsdf;
+    vec3 base = xyz(base_color(material, s.mesh));
+    vec4 metallic_roughness = slot_value(material.metallic_roughness_slot, s.mesh);
+    float specular = material.specular * slot_value(material.specular_slot, s.mesh).w;
+    vec3 specular_color = material.specular_color * xyz(slot_value(material.specular_color_slot, s.mesh));
+    bsdf.parameters =
+        bsdf_parameters(base, material.metallic * metallic_roughness.z, material.roughness * metallic_roughness.y,
+                        material.f0, specular, specular_color, constants.brdf);
+    vec3 smooth_normal = interpolated_normal(s, instance);
+    vec3 bumped = smooth_normal;
+    bsdf.mapped = 0u;
+    if (feature(FEATURE_NORMAL_MAPS) && material.normal_slot != NONE) {
+        bumped = mapped_normal(s, instance, material, smooth_normal);
+        bsdf.mapped = 1u;
+    }
+    float side = dot(s.normal, wo) < 0.0f ? -1.0f : 1.0f;
+    bsdf.geometric_normal = side * s.normal;
+    float smooth_side = dot(smooth_normal, bsdf.geometric_normal) < 0.0f ? -1.0f : 1.0f;
+    bsdf.shading_normal = smooth_side * smooth_normal;
+    bsdf.mapped_normal = smooth_side * bumped;
+    return bsdf;
+}
+
+#endif
