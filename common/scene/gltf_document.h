@@ -1,0 +1,48 @@
+// A glTF file taken apart: the JSON as tinygltf's structures, the buffers' bytes, and the images still encoded.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <tiny_gltf.h>
+#include <vector>
+
+namespace diptych::gltf {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// An image as the file has it. `problem` says why there are no bytes; it matters only to those who need the image.
+struct EncodedImage {
+    std::string name;
+    Bytes bytes;
+    std::string problem;
+};
+
+struct Document {
+    std::string file;
+    std::filesystem::path folder;
+    tinygltf::Model model;  // its `images` and buffers' `uri` are empty: both are read by this project
+    std::vector<EncodedImage> images;
+    std::vector<std::string> warnings;
+    std::set<std::string> warned;
+};
+
+/// Throws Error "file: object: reason".
+[[noreturn]] void fail(const Document& document, const std::string& object, const std::string& reason);
+
+/// Adds the warning "object: reason", once however often it is called.
+void warn(Document& document, const std::string& object, const std::string& reason);
+
+/// "meshes[2]", or "meshes[2] (name)".
+std::string label(const char* table, std::size_t index, const std::string& name = {});
+
+/// True where `name` stands in extensionsUsed or extensionsRequired.
+bool declares_extension(const Document& document, const std::string& name);
+
+/// Reads a .gltf or .glb (told by its content) with its buffers and encoded images. Throws Error where the file, its JSON or a
+/// buffer cannot be read, or where it requires an extension that the import lacks.
+Document read_document(const std::filesystem::path& path);
+
+}  // namespace diptych::gltf

@@ -1,0 +1,14 @@
+// Materials, textures and samplers of a glTF file.
+#pragma once
+
+#include "scene/gltf_document.h"
+#include "scene/scene.h"
+
+namespace diptych::gltf {
+
+/// Fills the scene's materials (one for each of the file's, in its order), and the textures and images that they use. Values
+/// outside the specification's ranges are clamped with a warning. Throws Error where an index points nowhere or an image that is
+/// used cannot be decoded.
+void import_materials(Document& document, Scene& scene);
+
+}  // namespace diptych::gltf
