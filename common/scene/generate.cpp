@@ -8,6 +8,13 @@ namespace {
 
 constexpr SceneGenerator generators[] = {
     {"cornell", "the Cornell box, as measured", generate_cornell},
+    {"veach-mis", "glossy plates reflect spheres of equal power and unequal size", generate_veach_mis},
+    {"brdf-grid", "spheres, roughness across and metalness up", generate_brdf_grid},
+    {"furnace", "a closed room where every ray sees 0.5", generate_furnace},
+    {"normal-map", "a brick relief head-on and at a grazing angle", generate_normal_map},
+    {"courtyard", "a columned hall around a court under the sky", generate_courtyard},
+    {"many-lights", "a street at night with --count emitters, most of them hidden", generate_many_lights},
+    {"mirror-maze", "perfect mirrors and small coloured lamps", generate_mirror_maze},
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <unordered_map>
 
 namespace diptych {
 namespace {
@@ -29,8 +30,16 @@ struct JsonList {
     }
 };
 
+/// An accessor already written, for another that would hold the same.
+struct StoredArray {
+    int accessor;
+    std::size_t offset, size;
+    std::string kind;
+};
+
 struct Document {
     std::vector<char> bytes;
+    std::unordered_multimap<std::size_t, StoredArray> arrays;  // by the hash of their bytes
     JsonList accessors, views, images, samplers, textures, materials, meshes, cameras, lights, nodes;
     std::set<std::string> extensions;
 };
@@ -49,11 +58,28 @@ int add_view(Document& document, const void* data, std::size_t size, ViewTarget 
     return document.views.add(view);
 }
 
+/// The accessor of an array; arrays of one content and kind share one. `accessor` lacks only its view.
+int add_array(Document& document, const void* data, std::size_t size, ViewTarget target, const Json& accessor) {
+    const std::string_view content(static_cast<const char*>(data), size);
+    const std::string kind = accessor.dump();
+    const std::size_t hash = std::hash<std::string_view>{}(content);
+    const auto [first, last] = document.arrays.equal_range(hash);
+    for (auto it = first; it != last; ++it) {
+        const StoredArray& stored = it->second;
+        if (stored.kind == kind && stored.size == size &&
+            std::memcmp(document.bytes.data() + stored.offset, data, size) == 0)
+            return stored.accessor;
+    }
+    Json out = {{"bufferView", add_view(document, data, size, target)}};
+    out.update(accessor);
+    const int index = document.accessors.add(out);
+    document.arrays.emplace(hash, StoredArray{index, document.bytes.size() - size, size, kind});
+    return index;
+}
+
 template <typename Vector>
 int add_attribute(Document& document, const std::vector<Vector>& values, bool with_bounds) {
-    const int view = add_view(document, values.data(), values.size() * sizeof(Vector), vertex_target);
-    Json accessor = {{"bufferView", view},
-                     {"componentType", int(type_float)},
+    Json accessor = {{"componentType", int(type_float)},
                      {"count", values.size()},
                      {"type", "VEC" + std::to_string(Vector::length())}};
     if (with_bounds) {
@@ -65,27 +91,22 @@ int add_attribute(Document& document, const std::vector<Vector>& values, bool wi
         accessor["min"] = gltf::json_vector(low);
         accessor["max"] = gltf::json_vector(high);
     }
-    return document.accessors.add(accessor);
+    return add_array(document, values.data(), values.size() * sizeof(Vector), vertex_target, accessor);
 }
 
 int add_indices(Document& document, const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
     const std::size_t count = 3 * triangles.size();
-    const bool is_short = vertices < 65535;
-    int view = 0;
-    if (is_short) {
-        std::vector<std::uint16_t> indices;
-        indices.reserve(count);
-        for (const glm::uvec3& t : triangles)
-            for (int i = 0; i < 3; ++i)
-                indices.push_back(std::uint16_t(t[i]));
-        view = add_view(document, indices.data(), 2 * count, index_target);
-    } else {
-        view = add_view(document, triangles.data(), 4 * count, index_target);
-    }
-    return document.accessors.add({{"bufferView", view},
-                                   {"componentType", int(is_short ? type_uint16 : type_uint32)},
-                                   {"count", count},
-                                   {"type", "SCALAR"}});
+    const bool is_short = vertices <= 65535;  // 65535 itself would restart a strip
+    const Json accessor = {
+        {"componentType", int(is_short ? type_uint16 : type_uint32)}, {"count", count}, {"type", "SCALAR"}};
+    if (!is_short)
+        return add_array(document, triangles.data(), 4 * count, index_target, accessor);
+    std::vector<std::uint16_t> indices;
+    indices.reserve(count);
+    for (const glm::uvec3& t : triangles)
+        for (int i = 0; i < 3; ++i)
+            indices.push_back(std::uint16_t(t[i]));
+    return add_array(document, indices.data(), 2 * count, index_target, accessor);
 }
 
 Json add_primitive(Document& document, const Primitive& primitive) {
