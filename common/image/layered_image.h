@@ -1,0 +1,35 @@
+// What a render writes and `compare` reads: colour, the layers beside it, and the settings that made them.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "image/image.h"
+#include "image/image_file.h"
+
+namespace diptych {
+
+struct LayeredImage {
+    Image color;                          // 3 channels, linear Rec.709
+    std::optional<Image> standard_error;  // 3 channels, of the mean that `color` holds
+    std::optional<Image> albedo;          // 3 channels
+    std::optional<Image> normal;          // 3 channels, world space
+    std::optional<Image> depth;           // 1 channel, world units
+    std::map<std::string, std::string> metadata;
+};
+
+/// One part, float32, zip: R G B, then stderr.R/G/B, albedo.R/G/B, normal.X/Y/Z, depth.Z for the layers that are there;
+/// metadata as string attributes `diptych:NAME`. Values survive bit for bit; metadata with an empty value is not
+/// written. Equal input gives equal bytes. Throws an Error naming file and reason.
+void write_exr(const std::filesystem::path& path, const LayeredImage& layers);
+
+/// EXR with the layers it has, or any other picture as colour alone. Integer files are decoded from sRGB to linear
+/// unless marked linear; grey becomes three equal channels; alpha is ignored. Throws an Error naming file and reason.
+LayeredImage read_image(const std::filesystem::path& path);
+
+/// IEC 61966-2-1, display value in [0, 1] to linear.
+float srgb_decoded(float encoded);
+
+}  // namespace diptych

@@ -1,0 +1,77 @@
+// What the image tests share: a folder that goes away, noise with a seed, the message of an expected error.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+
+#include <unistd.h>
+
+#include "catch.h"
+#include "error.h"
+#include "image/image.h"
+
+namespace diptych::tests {
+
+#if DIPTYCH_CATCH_VERSION >= 3
+using Catch::Approx;
+#else
+using Catch::Detail::Approx;
+#endif
+
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "diptych-test-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw Error(name + ": cannot be made");
+        path_ = name;
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    size_t file_count() const {
+        return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+inline std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline Image random_image(int width, int height, int channels, unsigned seed, float low = 0.0f, float high = 1.0f) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> uniform(low, high);
+    Image image = make_image(width, height, channels);
+    std::generate(image.data.begin(), image.data.end(), [&] { return uniform(random); });
+    return image;
+}
+
+/// What the Error thrown by `call` says; empty if nothing was thrown.
+template <typename Call>
+std::string error_of(Call&& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace diptych::tests
