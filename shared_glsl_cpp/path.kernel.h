@@ -148,7 +148,7 @@ FN PathSample trace_path(uvec2 pixel, uint sample_index) {
         }
 
         uint dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
-        bool samples_lights = feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters);
+        bool samples_lights = feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features());
         if (samples_lights) {
             result.radiance += throughput * direct_light(surface, bsdf, wo, random, dimension, depth, result.rays);
         }

@@ -52,6 +52,8 @@ PackedScene pack_scene(const Scene& scene, const RenderSettings& settings) {
     pack_camera(scene, settings, origin, packed);
     const double environment_luminance = pack_environment(scene, settings, packed);
     pack_lights(scene, settings, origin, environment_luminance, packed);
+    // A reader of the last vertex may fetch 16 bytes at once, as Embree does.
+    packed.positions.emplace_back(0.0F);
     return packed;
 }
 

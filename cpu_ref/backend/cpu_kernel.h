@@ -1,0 +1,81 @@
+// The shared kernels, as C++ over Embree.
+#pragma once
+
+#include <cassert>
+#include <vector>
+
+#include "embree_scene.h"
+#include "leaves.h"
+#include "pack/packed_scene.h"
+
+namespace diptych {
+
+/// One ray as an integrator traced it.
+struct TracedRay {
+    glm::vec3 origin;
+    glm::vec3 direction;
+    float t_max;  // infinite for a nearest-hit query
+    bool any;
+    std::uint32_t alpha_key;
+};
+
+/// Traces over Embree and does nothing else.
+struct PlainTracer {
+    const EmbreeScene& scene;
+
+    EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
+        return scene.closest(origin, direction, alpha_key);
+    }
+    bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
+        return scene.any(origin, direction, t_max, alpha_key);
+    }
+};
+
+/// Also keeps every ray, in the order in which they were traced.
+struct RecordingTracer {
+    const EmbreeScene& scene;
+    std::vector<TracedRay>& rays;
+
+    EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
+        rays.push_back({origin, direction, shared::INFINITE_DISTANCE, false, alpha_key});
+        return scene.closest(origin, direction, alpha_key);
+    }
+    bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
+        rays.push_back({origin, direction, t_max, true, alpha_key});
+        return scene.any(origin, direction, t_max, alpha_key);
+    }
+};
+
+namespace shared {
+
+/// The hooks of hooks.md, and the integrators as members.
+template <class Tracer>
+struct CpuKernel {
+    const PackedScene& packed;
+    const RenderConstants& constants;
+    Tracer tracer;
+
+    bool feature(uint bit) const { return (packed.features & bit) != 0; }
+    uint features() const { return packed.features; }
+
+#define DEFINE_LOAD(Type, name)                 \
+    const Type& load_##name(uint index) const { \
+        assert(index < packed.name.size());     \
+        return packed.name[index];              \
+    }
+    SCENE_BUFFERS(DEFINE_LOAD)
+#undef DEFINE_LOAD
+
+    Hit trace_closest(vec3 origin, vec3 direction, uint alpha_key) const {
+        const EmbreeHit h = tracer.closest(origin, direction, alpha_key);
+        return {h.instance, h.geometry, h.primitive, vec2(h.u, h.v), h.t};
+    }
+    bool trace_any(vec3 origin, vec3 direction, float t_max, uint alpha_key) const {
+        return tracer.any(origin, direction, t_max, alpha_key);
+    }
+
+#include "path.kernel.h"
+};
+
+}  // namespace shared
+}  // namespace diptych

@@ -1,0 +1,173 @@
+#include "backend/cpu_renderer.h"
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+#include "backend/cpu_kernel.h"
+
+namespace diptych {
+namespace {
+
+constexpr int tile_size = 16;
+// Samples of a pixel taken in one go: long enough to keep its film in registers, short enough to hear a cancel.
+constexpr std::uint32_t samples_a_slice = 16;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+class CpuRenderer final : public Renderer {
+public:
+    CpuRenderer(const PackedScene& packed, int threads)
+        : packed_(packed),
+          arena_(threads > 0 ? threads : tbb::task_arena::automatic),
+          start_(Clock::now()),
+          scene_(arena_.execute([&] { return std::make_unique<EmbreeScene>(packed); })) {
+        build_seconds_ = seconds_since(start_);
+        film_.width = static_cast<int>(packed.constants.size.x);
+        film_.height = static_cast<int>(packed.constants.size.y);
+        const std::size_t pixels = static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height);
+        film_.pixels.resize(pixels);
+        film_.moments.resize((packed.features & shared::FEATURE_STANDARD_ERROR) != 0 ? pixels : 0);
+        film_.first_hits.resize((packed.features & shared::FEATURE_FIRST_HIT_LAYERS) != 0 ? pixels : 0);
+    }
+
+    std::string backend() const override { return "cpu"; }
+    std::string device() const override { return cpu_name(); }
+
+    RendererCosts costs() const override {
+        const std::uint64_t film = film_.pixels.size() * sizeof(shared::FilmPixel) +
+                                   film_.moments.size() * sizeof(shared::FilmMoments) +
+                                   film_.first_hits.size() * sizeof(shared::FilmFirstHit);
+        return {build_seconds_, 0, buffer_bytes(packed_) + scene_->bytes() + film};
+    }
+
+    void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
+        const Clock::time_point start = Clock::now();
+        for (std::uint32_t done = 0; done < count && !cancel; done += samples_a_slice) {
+            accumulate(film_, first + done, std::min(samples_a_slice, count - done), &cancel);
+        }
+        seconds_ += seconds_since(start);
+    }
+
+    double device_seconds() const override { return seconds_; }
+    Film film() const override { return film_; }
+    TraversalBench bench_traversal(std::uint32_t samples) override;
+
+private:
+    template <class Body>
+    void for_tiles(const Body& body) const {
+        const tbb::blocked_range2d<int> tiles(0, (film_.height + tile_size - 1) / tile_size, 1, 0,
+                                              (film_.width + tile_size - 1) / tile_size, 1);
+        arena_.execute([&] {
+            tbb::parallel_for(tiles, [&](const tbb::blocked_range2d<int>& range) {
+                for (int y = range.rows().begin(); y < range.rows().end(); ++y) {
+                    for (int x = range.cols().begin(); x < range.cols().end(); ++x) {
+                        body(x, y);
+                    }
+                }
+            }, tbb::simple_partitioner());
+        });
+    }
+
+    template <class Kernel>
+    void accumulate_tile(Kernel& kernel, Film& film, int tile_x, int tile_y, std::uint32_t first,
+                         std::uint32_t count) const {
+        shared::FilmMoments no_moments{};
+        shared::FilmFirstHit no_first_hit{};
+        for (int y = tile_y * tile_size; y < std::min((tile_y + 1) * tile_size, film.height); ++y) {
+            for (int x = tile_x * tile_size; x < std::min((tile_x + 1) * tile_size, film.width); ++x) {
+                const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
+                                      static_cast<std::size_t>(x);
+                kernel.render_pixel({x, y}, first, count, film.pixels[i],
+                                    film.moments.empty() ? no_moments : film.moments[i],
+                                    film.first_hits.empty() ? no_first_hit : film.first_hits[i]);
+            }
+        }
+    }
+
+    void accumulate(Film& film, std::uint32_t first, std::uint32_t count, const std::atomic<bool>* cancel) const {
+        for_tiles([&](int x, int y) {
+            if (cancel == nullptr || !*cancel) {
+                shared::CpuKernel<PlainTracer> kernel{packed_, packed_.constants, {*scene_}};
+                accumulate_tile(kernel, film, x, y, first, count);
+            }
+        });
+    }
+
+    const PackedScene& packed_;
+    mutable tbb::task_arena arena_;
+    Clock::time_point start_;
+    std::unique_ptr<EmbreeScene> scene_;
+    Film film_;
+    double build_seconds_ = 0;
+    double seconds_ = 0;
+};
+
+TraversalBench CpuRenderer::bench_traversal(std::uint32_t samples) {
+    constexpr int repeats = 5;
+    const int columns = (film_.width + tile_size - 1) / tile_size;
+    const int rows = (film_.height + tile_size - 1) / tile_size;
+    std::vector<std::vector<TracedRay>> rays(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    const auto of_tile = [&](int x, int y) -> std::vector<TracedRay>& {
+        return rays[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)];
+    };
+    Film scratch = film_;
+    for_tiles([&](int x, int y) {
+        shared::CpuKernel<RecordingTracer> kernel{packed_, packed_.constants, {*scene_, of_tile(x, y)}};
+        accumulate_tile(kernel, scratch, x, y, 0, samples);
+    });
+
+    TraversalBench bench;
+    for (const std::vector<TracedRay>& tile : rays) {
+        bench.rays += tile.size();
+    }
+    std::vector<double> integrator;
+    std::vector<double> bare;
+    std::atomic<std::uint64_t> hits{0};  // keeps the compiler from dropping the queries
+    for (int i = 0; i < repeats; ++i) {
+        Clock::time_point start = Clock::now();
+        accumulate(scratch, 0, samples, nullptr);
+        integrator.push_back(seconds_since(start));
+        start = Clock::now();
+        for_tiles([&](int x, int y) {
+            std::uint64_t found = 0;
+            for (const TracedRay& ray : of_tile(x, y)) {
+                found += ray.any ? static_cast<std::uint64_t>(
+                                       scene_->any(ray.origin, ray.direction, ray.t_max, ray.alpha_key))
+                                 : scene_->closest(ray.origin, ray.direction, ray.alpha_key).instance;
+            }
+            hits += found;
+        });
+        bare.push_back(seconds_since(start));
+    }
+    std::sort(integrator.begin(), integrator.end());
+    std::sort(bare.begin(), bare.end());
+    bench.integrator_seconds = integrator[repeats / 2];
+    bench.bare_seconds = bare[repeats / 2];
+    return bench;
+}
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_cpu_renderer(const PackedScene& packed, int threads) {
+    return std::make_unique<CpuRenderer>(packed, threads);
+}
+
+std::string cpu_name() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "CPU";
+}
+
+}  // namespace diptych

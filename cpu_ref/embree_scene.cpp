@@ -1,0 +1,192 @@
+#include "embree_scene.h"
+
+#include <limits>
+
+#include "error.h"
+#include "leaves.h"
+#include "pack/packed_scene.h"
+
+namespace diptych {
+namespace shared {
+namespace {
+
+/// The hooks of hooks.md that a candidate hit needs.
+struct AlphaKernel {
+    const PackedScene& packed;
+
+    bool feature(uint bit) const { return (packed.features & bit) != 0; }
+
+#define DEFINE_LOAD(Type, name) \
+    const Type& load_##name(uint index) const { return packed.name[index]; }
+    SCENE_BUFFERS(DEFINE_LOAD)
+#undef DEFINE_LOAD
+
+#include "alpha.kernel.h"
+};
+
+}  // namespace
+}  // namespace shared
+
+namespace {
+
+#if DIPTYCH_EMBREE_VERSION >= 4
+using BaseContext = RTCRayQueryContext;
+#else
+using BaseContext = RTCIntersectContext;
+#endif
+
+/// What a filter is told beside the ray.
+struct RayContext {
+    BaseContext base;
+    std::uint32_t alpha_key;
+};
+
+RayContext make_context(std::uint32_t alpha_key) {
+    RayContext context;
+#if DIPTYCH_EMBREE_VERSION >= 4
+    rtcInitRayQueryContext(&context.base);
+#else
+    rtcInitIntersectContext(&context.base);
+#endif
+    context.alpha_key = alpha_key;
+    return context;
+}
+
+void set_ray(RTCRay& ray, const glm::vec3& origin, const glm::vec3& direction, float t_max) {
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.tnear = 0;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.time = 0;
+    ray.tfar = t_max;
+    ray.mask = ~0U;
+    ray.id = 0;
+    ray.flags = 0;
+}
+
+void filter_alpha(const RTCFilterFunctionNArguments* args) {
+    const auto* context = reinterpret_cast<const RayContext*>(args->context);
+    shared::AlphaKernel kernel{*static_cast<const PackedScene*>(args->geometryUserPtr)};
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) {
+            continue;
+        }
+        const glm::vec2 barycentrics(RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
+        const bool accepted =
+            kernel.accepts_hit(RTCHitN_instID(args->hit, args->N, i, 0), RTCHitN_geomID(args->hit, args->N, i),
+                               RTCHitN_primID(args->hit, args->N, i), barycentrics, context->alpha_key);
+        args->valid[i] = accepted ? -1 : 0;
+    }
+}
+
+bool count_memory(void* counter, ssize_t bytes, bool) {
+    static_cast<std::atomic<std::int64_t>*>(counter)->fetch_add(bytes);
+    return true;
+}
+
+}  // namespace
+
+std::string embree_version() { return RTC_VERSION_STRING; }
+
+EmbreeScene::EmbreeScene(const PackedScene& packed)
+    : bytes_(std::make_unique<std::atomic<std::int64_t>>(0)), device_(rtcNewDevice(nullptr)) {
+    if (!device_) {
+        throw Error("Embree: no device: error " + std::to_string(rtcGetDeviceError(nullptr)));
+    }
+    rtcSetDeviceMemoryMonitorFunction(device_.get(), count_memory, bytes_.get());
+    for (std::size_t mesh = 0; mesh < packed.meshes.size(); ++mesh) {
+        meshes_.push_back(build_mesh(packed, mesh));
+    }
+    root_ = build_root(packed);
+    check("build");
+}
+
+void EmbreeScene::check(const char* what) const {
+    const RTCError error = rtcGetDeviceError(device_.get());
+    if (error != RTC_ERROR_NONE) {
+        throw Error(std::string("Embree: ") + what + ": error " + std::to_string(error));
+    }
+}
+
+EmbreeScene::ScenePtr EmbreeScene::build_mesh(const PackedScene& packed, std::size_t mesh) const {
+    const MeshRange range = packed.meshes[mesh];
+    if (range.geometry_count == 0) {
+        return nullptr;
+    }
+    ScenePtr scene(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    for (std::uint32_t i = 0; i < range.geometry_count; ++i) {
+        const shared::Geometry& g = packed.geometries[range.first_geometry + i];
+        const GeometryExtent& extent = packed.geometry_extents[range.first_geometry + i];
+        RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, packed.positions.data(),
+                                   g.first_vertex * sizeof(glm::vec3), sizeof(glm::vec3), extent.vertex_count);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, packed.triangles.data(),
+                                   g.first_triangle * sizeof(glm::uvec3), sizeof(glm::uvec3), extent.triangle_count);
+        if (extent.alpha) {
+            rtcSetGeometryUserData(geometry, const_cast<PackedScene*>(&packed));
+            rtcSetGeometryIntersectFilterFunction(geometry, filter_alpha);
+            rtcSetGeometryOccludedFilterFunction(geometry, filter_alpha);
+        }
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene.get(), geometry, i);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(scene.get());
+    check("mesh");
+    return scene;
+}
+
+EmbreeScene::ScenePtr EmbreeScene::build_root(const PackedScene& packed) const {
+    ScenePtr root(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(root.get(), RTC_SCENE_FLAG_ROBUST);
+    for (std::size_t i = 0; i < packed.instances.size(); ++i) {
+        const shared::Instance& instance = packed.instances[i];
+        RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, meshes_[packed.instance_meshes[i]].get());
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, &instance.row_0);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(root.get(), geometry, static_cast<unsigned>(i));
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(root.get());
+    return root;
+}
+
+EmbreeHit EmbreeScene::closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
+    RayContext context = make_context(alpha_key);
+    RTCRayHit query;
+    set_ray(query.ray, origin, direction, std::numeric_limits<float>::infinity());
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if DIPTYCH_EMBREE_VERSION >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context.base;
+    rtcIntersect1(root_.get(), &query, &arguments);
+#else
+    rtcIntersect1(root_.get(), &context.base, &query);
+#endif
+    return {query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
+}
+
+bool EmbreeScene::any(const glm::vec3& origin, const glm::vec3& direction, float t_max,
+                      std::uint32_t alpha_key) const {
+    RayContext context = make_context(alpha_key);
+    RTCRay ray;
+    set_ray(ray, origin, direction, t_max);
+#if DIPTYCH_EMBREE_VERSION >= 4
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context.base;
+    rtcOccluded1(root_.get(), &ray, &arguments);
+#else
+    rtcOccluded1(root_.get(), &context.base, &ray);
+#endif
+    return ray.tfar < 0;
+}
+
+}  // namespace diptych
