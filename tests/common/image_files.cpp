@@ -12,7 +12,7 @@
 #include "image_fixtures.h"
 
 using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::image_tests;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "image_fixtures.h"
 
 using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::image_tests;
 
 TEST_CASE("Tone maps have names, and an unknown one lists them", "[image]") {
     for (const char* name : {"none", "exponential", "uncharted2", "aces", "pbr-neutral"})
