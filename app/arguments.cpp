@@ -32,23 +32,28 @@ int parse_side(const std::string& text, const std::string& side) {
 
 }  // namespace
 
+void add_integrator_option(CLI::App& command, RenderArguments& arguments) {
+    command.add_option("--integrator", arguments.integrator, "brdf, direct or path")->capture_default_str();
+}
+
 void add_scene_options(CLI::App& command, RenderArguments& arguments) {
     RenderRequest& request = arguments.request;
-    command.add_option("--integrator", arguments.integrator, "brdf, direct or path")->capture_default_str();
     command.add_option("--brdf", arguments.brdf, "Microfacet model: ggx or blinn-phong")->capture_default_str();
     command.add_option("--sampler", arguments.sampler, "independent, hammersley or sobol")->capture_default_str();
     command.add_option("--mis", arguments.mis, "Weights of path: power or balance")->capture_default_str();
     command.add_option("--max-depth", request.settings.max_depth, "Scattering events; 1 is emission and direct light")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
-    command.add_option("--size", arguments.size, "WIDTHxHEIGHT in pixels, or a height: the camera's aspect gives the width");
+    command.add_option("--size", arguments.size,
+                       "WIDTHxHEIGHT in pixels, or a height: the camera's aspect gives the width");
     command.add_option("--camera", request.camera, "Camera by name or index; the first by default");
     command.add_option("--env", request.environment, "Light from infinity: R,G,B radiance, or a .hdr or .exr panorama");
     command.add_option("--env-scale", request.environment_scale, "Factor on that light")->check(CLI::NonNegativeNumber);
     command.add_option("--env-rotate", request.environment_rotation, "Degrees it is turned about +Y");
     command.add_option("--aperture", request.lens_radius, "Radius of the lens, metres")->check(CLI::NonNegativeNumber);
     command.add_option("--focus", request.focus_distance, "Distance in focus, metres")->check(CLI::PositiveNumber);
-    command.add_flag("--generic", request.settings.generic, "Leave nothing out that the scene does not need; same image");
+    command.add_flag("--generic", request.settings.generic,
+                     "Leave nothing out that the scene does not need; same image");
 }
 
 void add_backend_options(CLI::App& command, RenderArguments& arguments) {

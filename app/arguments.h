@@ -19,7 +19,9 @@ struct RenderArguments {
     std::string size;
 };
 
-/// The scene, what changes it (environment, camera, lens, size), and what decides its features.
+void add_integrator_option(CLI::App& command, RenderArguments& arguments);
+
+/// What changes the scene (environment, camera, lens, size) and what decides its features.
 void add_scene_options(CLI::App& command, RenderArguments& arguments);
 
 /// Which backend, and how it is to work.

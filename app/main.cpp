@@ -28,8 +28,9 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
 }
 
 int run_program(int argc, char** argv) {
-    CLI::App app("One glTF scene rendered twice, by Embree on the CPU and by Vulkan ray tracing, from one set of shaders.",
-                 "diptych");
+    CLI::App app(
+        "One glTF scene rendered twice, by Embree on the CPU and by Vulkan ray tracing, from one set of shaders.",
+        "diptych");
     app.footer(examples);
     app.set_version_flag("--version", program_version());
     app.require_subcommand(1);

@@ -24,8 +24,8 @@ std::string clock_text(double seconds) {
 }  // namespace
 
 std::string progress_text(const Progress& progress, std::uint32_t target_spp) {
-    std::string text = target_spp > 0 ? fmt::format("{}/{} spp", progress.spp, target_spp)
-                                      : fmt::format("{} spp", progress.spp);
+    std::string text =
+        target_spp > 0 ? fmt::format("{}/{} spp", progress.spp, target_spp) : fmt::format("{} spp", progress.spp);
     text += fmt::format("  {}samples/s", with_prefix(progress.samples_per_second));
     if (progress.rays_per_second > 0) {
         text += fmt::format("  {}ray/s", with_prefix(progress.rays_per_second));
@@ -58,7 +58,8 @@ void ProgressLine::show(const Progress& progress) {
     }
     shown_ = progress;
     next_ = terminal_ ? progress.seconds + terminal_interval : 2 * progress.seconds;
-    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", progress_text(progress, target_spp_), terminal_ ? "\x1b[K" : "\n");
+    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", progress_text(progress, target_spp_),
+               terminal_ ? "\x1b[K" : "\n");
     std::fflush(stderr);
 }
 

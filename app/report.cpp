@@ -41,8 +41,12 @@ std::string one_line(std::string text) {
     return text;
 }
 
-void report_error(const std::string& message) { print_error_line(message); }
-void report_warning(const std::string& message) { print_error_line("warning: " + message); }
+void report_error(const std::string& message) {
+    print_error_line(message);
+}
+void report_warning(const std::string& message) {
+    print_error_line("warning: " + message);
+}
 
 void report_warnings(const std::vector<std::string>& messages) {
     std::set<std::string> seen;
@@ -58,8 +62,12 @@ void print_json(const nlohmann::ordered_json& json) {
     std::fflush(stdout);
 }
 
-std::string with_prefix(double value) { return scaled(value, 1000, {"", "k", "M", "G", "T"}); }
+std::string with_prefix(double value) {
+    return scaled(value, 1000, {"", "k", "M", "G", "T"});
+}
 
-std::string byte_text(double bytes) { return scaled(bytes, 1024, {"B", "KiB", "MiB", "GiB", "TiB"}); }
+std::string byte_text(double bytes) {
+    return scaled(bytes, 1024, {"B", "KiB", "MiB", "GiB", "TiB"});
+}
 
 }  // namespace diptych::app

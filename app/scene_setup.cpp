@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "error.h"
+#include "pack/features.h"
 #include "report.h"
 #include "scene/default_camera.h"
 #include "scene/environment_load.h"
@@ -64,8 +65,8 @@ void place_environment(Scene& scene, const RenderRequest& request) {
     }
     const bool turned = request.environment_scale != 1 || request.environment_rotation != 0;
     if (scene.environment.kind == Environment::Kind::none && turned) {
-        throw Error(fmt::format("{}: --env-scale and --env-rotate want an environment, and the scene has none: give --env",
-                                scene.name));
+        throw Error(fmt::format(
+            "{}: --env-scale and --env-rotate want an environment, and the scene has none: give --env", scene.name));
     }
     scene.environment.scale *= static_cast<float>(request.environment_scale);
     scene.environment.rotation += request.environment_rotation * std::numbers::pi / 180;
@@ -108,10 +109,6 @@ void place_camera(Scene& scene, RenderRequest& request) {
     }
     camera.lens_radius = request.lens_radius.value_or(camera.lens_radius);
     camera.focus_distance = request.focus_distance.value_or(camera.focus_distance);
-}
-
-bool emits(const Material& material) {
-    return std::max({material.emission.x, material.emission.y, material.emission.z}) > 0 || material.unlit;
 }
 
 }  // namespace

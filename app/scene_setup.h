@@ -6,8 +6,9 @@
 
 namespace diptych::app {
 
-/// Loads the scene, puts the environment, the camera, its lens and the size in place, and reports the warnings, once each.
-/// Without any light it gets a neutral sky, without a camera one that frames it, both with a warning. Throws Error.
+/// Loads the scene, puts the environment, the camera, its lens and the size in place, and reports the warnings, once
+/// each. Without any light it gets a neutral sky, without a camera one that frames it, both with a warning. Throws
+/// Error.
 Scene prepare_scene(RenderArguments& arguments);
 
 /// Whether anything in it emits.

@@ -1,0 +1,217 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "arguments.h"
+#include "backend.h"
+#include "command.h"
+#include "error.h"
+#include "render/settings_names.h"
+#include "report.h"
+#include "scene_setup.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  diptych bench cornell.gltf --backend cpu
+  diptych bench street.glb --backend vulkan --size 1920x1080 --integrators brdf,path --frames 20 --json
+Medians over the frames; the integrators take turns, so that all ratios come from one run under the same conditions.)";
+
+struct Options {
+    RenderArguments arguments;
+    std::vector<std::string> integrators{"brdf", "direct", "path"};
+    std::uint32_t spp = 1;
+    int frames = 9;
+    bool json = false;
+};
+
+/// One integrator on its own renderer, and the times of its frames.
+struct Entry {
+    Integrator integrator = Integrator::path;
+    std::unique_ptr<PackedScene> packed;  // outlives the renderer, which may read it
+    std::unique_ptr<Renderer> renderer;
+    std::vector<double> frame_seconds;
+    std::vector<double> traversal_rates;  // rays a second, traced alone
+    std::vector<double> traversal_share;  // of that rate, reached within the integrator
+    double rays_per_frame = 0;
+};
+
+struct Figures {
+    double milliseconds = 0;  // one sample a pixel
+    double samples_per_second = 0;
+    double rays_per_second = 0;
+    double bare_rays_per_second = 0;
+    double share_of_bare = 0;
+    double cost_relative_to_brdf = 0;  // a sample; 0 where brdf was not measured
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+std::vector<Entry> make_entries(Options& options, const Scene& scene) {
+    std::vector<Entry> entries;
+    for (const std::string& name : options.integrators) {
+        RenderRequest request = options.arguments.request;
+        request.settings.integrator = integrator_from_name(name);
+        request.settings.sample_count = options.spp * static_cast<std::uint32_t>(options.frames + 1);
+        Entry entry;
+        entry.integrator = request.settings.integrator;
+        entry.packed = std::make_unique<PackedScene>(pack_scene(scene, request.settings));
+        entry.renderer = make_renderer(*entry.packed, request);
+        entries.push_back(std::move(entry));
+    }
+    return entries;
+}
+
+void measure(Entry& entry, std::uint32_t frame, std::uint32_t spp) {
+    const std::atomic<bool> never = false;
+    const double before = entry.renderer->device_seconds();
+    entry.renderer->render(frame * spp, spp, never);
+    entry.frame_seconds.push_back(entry.renderer->device_seconds() - before);
+}
+
+void measure_traversal(Entry& entry) {
+    const TraversalBench bench = entry.renderer->bench_traversal(1);
+    entry.traversal_rates.push_back(static_cast<double>(bench.rays) / bench.bare_seconds);
+    entry.traversal_share.push_back(bench.bare_seconds / bench.integrator_seconds);
+}
+
+/// The first frame of each warms up and does not count.
+void run_rounds(std::vector<Entry>& entries, const Options& options) {
+    for (Entry& entry : entries) {
+        measure(entry, 0, options.spp);
+        entry.frame_seconds.clear();
+        entry.rays_per_frame = -static_cast<double>(film_totals(entry.renderer->film()).rays);
+    }
+    for (int frame = 1; frame <= options.frames; ++frame) {
+        for (Entry& entry : entries) {
+            measure(entry, static_cast<std::uint32_t>(frame), options.spp);
+        }
+    }
+    for (Entry& entry : entries) {
+        entry.rays_per_frame += static_cast<double>(film_totals(entry.renderer->film()).rays);
+        entry.rays_per_frame /= options.frames;
+    }
+    for (int frame = 0; frame < options.frames; ++frame) {
+        for (Entry& entry : entries) {
+            measure_traversal(entry);
+        }
+    }
+}
+
+std::vector<Figures> evaluate(const std::vector<Entry>& entries, const Options& options) {
+    const RenderSettings& settings = options.arguments.request.settings;
+    const double pixels = static_cast<double>(settings.width) * settings.height;
+    double brdf_seconds = 0;
+    for (const Entry& entry : entries) {
+        brdf_seconds = entry.integrator == Integrator::brdf ? median(entry.frame_seconds) : brdf_seconds;
+    }
+    std::vector<Figures> all;
+    for (const Entry& entry : entries) {
+        const double seconds = median(entry.frame_seconds);
+        Figures figures;
+        figures.milliseconds = 1000 * seconds / options.spp;
+        figures.samples_per_second = pixels * options.spp / seconds;
+        figures.rays_per_second = entry.rays_per_frame / seconds;
+        figures.bare_rays_per_second = median(entry.traversal_rates);
+        figures.share_of_bare = median(entry.traversal_share);
+        figures.cost_relative_to_brdf = brdf_seconds > 0 ? seconds / brdf_seconds : 0;
+        all.push_back(figures);
+    }
+    return all;
+}
+
+void print_text(const std::vector<Entry>& entries, const std::vector<Figures>& all, const RenderSettings& settings) {
+    fmt::print("{} at {}x{}, {}\n", entries.front().renderer->backend(), settings.width, settings.height,
+               entries.front().renderer->device());
+    fmt::print("{:<10} {:>10} {:>12} {:>10} {:>12} {:>10} {:>10}\n", "integrator", "ms/frame", "Msamples/s", "Mray/s",
+               "bare Mray/s", "of bare", "of brdf");
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Figures& figures = all[i];
+        const std::string relative =
+            figures.cost_relative_to_brdf > 0 ? fmt::format("{:.2f}x", figures.cost_relative_to_brdf) : "-";
+        fmt::print("{:<10} {:>10.3f} {:>12.3f} {:>10.2f} {:>12.2f} {:>9.1f}% {:>10}\n", name_of(entries[i].integrator),
+                   figures.milliseconds, figures.samples_per_second / 1e6, figures.rays_per_second / 1e6,
+                   figures.bare_rays_per_second / 1e6, 100 * figures.share_of_bare, relative);
+    }
+}
+
+nlohmann::ordered_json to_json(const std::vector<Entry>& entries, const std::vector<Figures>& all,
+                               const Options& options) {
+    const RenderSettings& settings = options.arguments.request.settings;
+    nlohmann::ordered_json json;
+    json["scene"] = options.arguments.request.scene;
+    json["backend"] = entries.front().renderer->backend();
+    json["device"] = entries.front().renderer->device();
+    json["width"] = settings.width;
+    json["height"] = settings.height;
+    json["spp"] = options.spp;
+    json["frames"] = options.frames;
+    json["integrators"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Figures& figures = all[i];
+        const RendererCosts costs = entries[i].renderer->costs();
+        const auto relative = figures.cost_relative_to_brdf > 0 ? nlohmann::ordered_json(figures.cost_relative_to_brdf)
+                                                                : nlohmann::ordered_json();
+        json["integrators"].push_back({{"integrator", name_of(entries[i].integrator)},
+                                       {"milliseconds", figures.milliseconds},
+                                       {"samples_per_second", figures.samples_per_second},
+                                       {"rays_per_second", figures.rays_per_second},
+                                       {"bare_rays_per_second", figures.bare_rays_per_second},
+                                       {"share_of_bare", figures.share_of_bare},
+                                       {"cost_relative_to_brdf", relative},
+                                       {"build_seconds", costs.build_seconds},
+                                       {"compile_seconds", costs.compile_seconds},
+                                       {"bytes", costs.bytes}});
+    }
+    return json;
+}
+
+int run_bench(Options options) {
+    resolve_names(options.arguments);
+    for (const std::string& name : options.integrators) {
+        integrator_from_name(name);
+    }
+    const Scene scene = prepare_scene(options.arguments);
+    std::vector<Entry> entries = make_entries(options, scene);
+    run_rounds(entries, options);
+    const std::vector<Figures> figures = evaluate(entries, options);
+    if (options.json) {
+        print_json(to_json(entries, figures, options));
+    } else {
+        print_text(entries, figures, options.arguments.request.settings);
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("bench", "Measure how fast a backend renders a scene");
+    auto options = std::make_shared<Options>();
+    command->add_option("scene", options->arguments.request.scene, ".gltf or .glb file")->required();
+    command->add_option("--integrators", options->integrators, "Those to measure")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--spp", options->spp, "Samples a pixel in one frame")
+        ->check(CLI::Range(1U, 65536U))
+        ->capture_default_str();
+    command->add_option("--frames", options->frames, "Repeats, of which the median counts")
+        ->check(CLI::Range(5, 10000))
+        ->capture_default_str();
+    command->add_option("--seed", options->arguments.request.settings.seed, "Another seed, other noise")
+        ->capture_default_str();
+    add_scene_options(*command, options->arguments);
+    add_backend_options(*command, options->arguments);
+    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->footer(examples);
+    command->callback([options, &run] { run = [options] { return run_bench(*options); }; });
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "command.h"
+#include "compare_verdict.h"
+#include "error.h"
+#include "image/figures.h"
+#include "image/image_file.h"
+#include "image/metrics.h"
+#include "image/tonemap_image.h"
+#include "report.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  diptych compare picture.exr reference.exr
+  diptych compare cpu.exr vulkan.exr -o difference.png
+  diptych compare cpu.exr vulkan.exr --max-z 4 --max-relmse 0.01
+z is the difference of the means over its standard error, which EXR files carry in a layer; it means something only where
+the two were rendered with different seeds. The PNG shows A, B, and a heatmap of their relative difference.)";
+
+struct Options {
+    std::string a;
+    std::string b;
+    std::string output;
+    double exposure = 0;
+    std::string tonemap = "none";
+    std::optional<double> heat_max;
+    std::optional<double> max_z;
+    std::optional<double> max_relmse;
+    bool json = false;
+};
+
+/// The value below which 99 % of the finite ones lie, or 1e-6 where that is less.
+float automatic_heat(const Image& heat) {
+    std::vector<float> values;
+    std::copy_if(heat.data.begin(), heat.data.end(), std::back_inserter(values),
+                 [](float x) { return std::isfinite(x); });
+    if (values.empty()) {
+        return 1;
+    }
+    const auto nth = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * 99 / 100);
+    std::nth_element(values.begin(), nth, values.end());
+    return std::max(*nth, 1e-6F);
+}
+
+float write_figure(const Options& options, const LayeredImage& a, const LayeredImage& b) {
+    const ToneMap tonemap = tonemap_from_name(options.tonemap);
+    const float exposure = static_cast<float>(options.exposure);
+    const Image relative = relative_difference(a.color, b.color);
+    const float hot = options.heat_max ? static_cast<float>(*options.heat_max) : automatic_heat(relative);
+    write_png(options.output, side_by_side({tonemapped(a.color, tonemap, exposure),
+                                            tonemapped(b.color, tonemap, exposure), heatmap(relative, 0, hot)}));
+    return hot;
+}
+
+/// Why the pictures fail the check that was asked for; empty where they pass.
+std::string failure(const Options& options, const Difference& difference) {
+    if ((options.max_z || options.max_relmse) && difference.nonfinite > 0) {
+        return fmt::format("{} pixels are not finite", difference.nonfinite);
+    }
+    const double z = largest_z(difference);
+    if (options.max_z && !(z <= *options.max_z)) {
+        return fmt::format("|z| {:.3g} exceeds {:.3g}", z, *options.max_z);
+    }
+    if (options.max_relmse && !(difference.relmse <= *options.max_relmse)) {
+        return fmt::format("relMSE {:.3g} exceeds {:.3g}", difference.relmse, *options.max_relmse);
+    }
+    return "";
+}
+
+nlohmann::ordered_json to_json(const Difference& difference, const Verdict& verdict, const std::string& why_failed) {
+    nlohmann::ordered_json json;
+    json["mse"] = difference.mse;
+    json["relmse"] = difference.relmse;
+    json["relmse_trimmed"] = difference.relmse_trimmed;
+    json["trimmed_energy"] = difference.trimmed_energy;
+    json["mean_ratio"] = difference.mean_ratio;
+    json["z_mean"] = difference.z_mean;
+    json["fraction_equal"] = difference.fraction_equal;
+    json["nonfinite"] = difference.nonfinite;
+    json["noise"] = verdict.noise ? nlohmann::ordered_json(*verdict.noise) : nlohmann::ordered_json();
+    json["same_random_numbers"] = verdict.same_random_numbers;
+    json["verdict"] = verdict.text;
+    json["passed"] = why_failed.empty();
+    return json;
+}
+
+void print_numbers(const Difference& difference) {
+    const auto& ratio = difference.mean_ratio;
+    const auto& z = difference.z_mean;
+    fmt::print("MSE {:.4g}  relMSE {:.4g}  mean ratio {:.6f} {:.6f} {:.6f}  z {:.2f} {:.2f} {:.2f}\n", difference.mse,
+               difference.relmse, ratio[0], ratio[1], ratio[2], z[0], z[1], z[2]);
+}
+
+int run_compare(const Options& options) {
+    if (!options.output.empty()) {
+        check_writable(options.output);
+        if (image_format(options.output) != ImageFormat::Png) {
+            throw Error(fmt::format("{}: the figure is written as .png", options.output));
+        }
+    }
+    tonemap_from_name(options.tonemap);
+    const LayeredImage a = read_image(options.a);
+    const LayeredImage b = read_image(options.b);
+    if (a.color.width != b.color.width || a.color.height != b.color.height) {
+        throw Error(fmt::format("{}: is {}x{}, but {} is {}x{}", options.a, a.color.width, a.color.height, options.b,
+                                b.color.width, b.color.height));
+    }
+    if (options.max_z && !(a.standard_error && b.standard_error)) {
+        throw Error(fmt::format("{}: --max-z wants a layer of standard errors, and there is none",
+                                a.standard_error ? options.b : options.a));
+    }
+    const Difference difference = compare_images(a, b);
+    const Verdict verdict = judge(difference, a, b);
+    if (verdict.same_random_numbers) {
+        report_warning(fmt::format("{} and {}: rendered with one seed, so their noise is shared and z means nothing",
+                                   options.a, options.b));
+    }
+    if (difference.nonfinite > 0) {
+        report_warning(fmt::format("{} and {}: {} pixels that are not finite were left out", options.a, options.b,
+                                   difference.nonfinite));
+    }
+    const std::string why_failed = failure(options, difference);
+    const float hot = options.output.empty() ? 0 : write_figure(options, a, b);
+    if (options.json) {
+        nlohmann::ordered_json json = to_json(difference, verdict, why_failed);
+        if (!options.output.empty()) {
+            json["output"] = options.output;
+            json["heat_max"] = hot;
+        }
+        print_json(json);
+    } else {
+        print_numbers(difference);
+        fmt::print("{}\n", verdict.text);
+        if (!options.output.empty()) {
+            fmt::print("{}: A, B and their relative difference from 0 (black) to {:.3g} (yellow)\n", options.output,
+                       hot);
+        }
+    }
+    if (!why_failed.empty()) {
+        report_error(fmt::format("{} against {}: {}", options.a, options.b, why_failed));
+        return exit_check_failed;
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("compare", "Say how far two images differ, and whether that is noise");
+    auto options = std::make_shared<Options>();
+    command->add_option("a", options->a, "Image")->required();
+    command->add_option("b", options->b, "Image that it is held against")->required();
+    command->add_option("-o,--output", options->output, "Figure to write, .png");
+    command->add_option("--exposure", options->exposure, "EV of the figure")->check(CLI::Range(-100.0, 100.0));
+    command->add_option("--tonemap", options->tonemap,
+                        "Of the figure: none, exponential, uncharted2, aces or pbr-neutral");
+    command->add_option("--heat-max", options->heat_max, "Relative difference at the heatmap's hot end")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--max-z", options->max_z, "Exit 1 where |z| is larger in a channel")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--max-relmse", options->max_relmse, "Exit 1 where relMSE is larger")
+        ->check(CLI::NonNegativeNumber);
+    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->footer(examples);
+    command->callback([options, &run] { run = [options] { return run_compare(*options); }; });
+}
+
+}  // namespace diptych::app

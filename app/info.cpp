@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+
+#include "arguments.h"
+#include "command.h"
+#include "devices_info.h"
+#include "error.h"
+#include "pack/features.h"
+#include "pack/packed_scene.h"
+#include "render/film.h"
+#include "report.h"
+#include "scene_setup.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  diptych info scene.gltf
+  diptych info scene.gltf --integrator brdf --brdf blinn-phong --json
+  diptych info --devices
+What a scene needs depends on the integrator, the BRDF, the environment and the size, so the options of render apply.)";
+
+struct Options {
+    RenderArguments arguments;
+    bool layers = true;
+    bool devices = false;
+    bool json = false;
+};
+
+struct Bounds {
+    glm::dvec3 least{std::numeric_limits<double>::infinity()};
+    glm::dvec3 most{-std::numeric_limits<double>::infinity()};
+};
+
+struct Counts {
+    std::size_t triangles = 0;         // as stored
+    std::size_t placed_triangles = 0;  // as seen, instances counted
+};
+
+std::size_t mesh_triangles(const Mesh& mesh) {
+    std::size_t triangles = 0;
+    for (const Primitive& primitive : mesh.primitives) {
+        triangles += primitive.triangles.size();
+    }
+    return triangles;
+}
+
+Counts count_triangles(const Scene& scene) {
+    Counts counts;
+    for (const Mesh& mesh : scene.meshes) {
+        counts.triangles += mesh_triangles(mesh);
+    }
+    for (const Instance& instance : scene.instances) {
+        counts.placed_triangles += mesh_triangles(scene.meshes[static_cast<std::size_t>(instance.mesh)]);
+    }
+    return counts;
+}
+
+/// World space.
+Bounds find_bounds(const Scene& scene) {
+    Bounds bounds;
+    for (const Instance& instance : scene.instances) {
+        for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
+            for (const glm::vec3& position : primitive.positions) {
+                const glm::dvec3 world{instance.object_to_world * glm::dvec4(position, 1)};
+                bounds.least = glm::min(bounds.least, world);
+                bounds.most = glm::max(bounds.most, world);
+            }
+        }
+    }
+    return bounds;
+}
+
+struct BufferSize {
+    const char* name;
+    std::uint64_t bytes;
+};
+
+/// The scene's buffers, then the film's, those that are empty left out.
+std::vector<BufferSize> buffer_sizes(const PackedScene& packed, const RenderSettings& settings) {
+    std::vector<BufferSize> sizes;
+    const auto add = [&](const char* name, std::uint64_t bytes) {
+        if (bytes > 0) {
+            sizes.push_back({name, bytes});
+        }
+    };
+#define ADD_BUFFER(Type, name) add(#name, packed.name.size() * sizeof(packed.name[0]));
+    SCENE_BUFFERS(ADD_BUFFER)
+#undef ADD_BUFFER
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+    const auto feature = [&](std::uint32_t bit) { return (packed.features & bit) != 0; };
+    add("film", pixels * sizeof(shared::FilmPixel));
+    add("film_moments", feature(shared::FEATURE_STANDARD_ERROR) ? pixels * sizeof(shared::FilmMoments) : 0);
+    add("film_first_hits", feature(shared::FEATURE_FIRST_HIT_LAYERS) ? pixels * sizeof(shared::FilmFirstHit) : 0);
+    return sizes;
+}
+
+nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, const RenderSettings& settings) {
+    const Counts counts = count_triangles(scene);
+    const Bounds bounds = find_bounds(scene);
+    nlohmann::ordered_json json;
+    json["scene"] = scene.name;
+    json["triangles"] = counts.triangles;
+    json["placed_triangles"] = counts.placed_triangles;
+    json["meshes"] = scene.meshes.size();
+    json["instances"] = scene.instances.size();
+    json["lights"] = packed.constants.light_count;
+    json["emissive_triangles"] = packed.constants.emissive_triangle_count;
+    json["punctual_lights"] = packed.constants.punctual_light_count;
+    json["materials"] = scene.materials.size();
+    json["textures"] = scene.textures.size();
+    json["images"] = scene.images.size();
+    json["cameras"] = nlohmann::ordered_json::array();
+    for (const Camera& camera : scene.cameras) {
+        json["cameras"].push_back(camera.name);
+    }
+    if (counts.placed_triangles > 0) {
+        json["bounds"] = {{bounds.least.x, bounds.least.y, bounds.least.z},
+                          {bounds.most.x, bounds.most.y, bounds.most.z}};
+    }
+    json["width"] = settings.width;
+    json["height"] = settings.height;
+    json["features"] = feature_names(packed.features);
+    json["left_out"] = feature_names(~packed.features);
+    std::uint64_t bytes = 0;
+    json["buffers"] = nlohmann::ordered_json::object();
+    for (const BufferSize& buffer : buffer_sizes(packed, settings)) {
+        json["buffers"][buffer.name] = buffer.bytes;
+        bytes += buffer.bytes;
+    }
+    json["bytes"] = bytes;
+    json["warnings"] = scene.warnings;
+    return json;
+}
+
+std::string words(const nlohmann::ordered_json& list) {
+    std::string text;
+    for (const auto& word : list) {
+        text += (text.empty() ? "" : ", ") + word.get<std::string>();
+    }
+    return text.empty() ? "nothing" : text;
+}
+
+void print_text(const nlohmann::ordered_json& json) {
+    const auto number = [&](const char* name) { return json.at(name).get<std::uint64_t>(); };
+    fmt::print("{}\n", json.at("scene").get<std::string>());
+    fmt::print("  triangles   {} stored in {} meshes, {} placed by {} instances\n", number("triangles"),
+               number("meshes"), number("placed_triangles"), number("instances"));
+    fmt::print("  lights      {}, of them {} emissive triangles, {} punctual\n", number("lights"),
+               number("emissive_triangles"), number("punctual_lights"));
+    fmt::print("  materials   {}, textures {} of {} images\n", number("materials"), number("textures"),
+               number("images"));
+    fmt::print("  cameras     {}\n", words(json.at("cameras")));
+    if (json.contains("bounds")) {
+        fmt::print("  bounds      {} to {}\n", json["bounds"][0].dump(), json["bounds"][1].dump());
+    }
+    fmt::print("  needs       {}\n", words(json.at("features")));
+    fmt::print("  left out    {}\n", words(json.at("left_out")));
+    fmt::print("  takes       {} of buffers at {}x{}, acceleration structures aside\n",
+               byte_text(json.at("bytes").get<double>()), number("width"), number("height"));
+    for (const auto& [name, bytes] : json.at("buffers").items()) {
+        fmt::print("    {:<20} {:>12}\n", name, byte_text(bytes.get<double>()));
+    }
+}
+
+int run_info(Options options) {
+    if (options.devices) {
+        return print_devices(options.json);
+    }
+    RenderRequest& request = options.arguments.request;
+    if (request.scene.empty()) {
+        throw Error("info: wants a scene, or --devices");
+    }
+    resolve_names(options.arguments);
+    request.settings.standard_error = options.layers;
+    request.settings.first_hit_layers = options.layers;
+    const Scene scene = prepare_scene(options.arguments);
+    const nlohmann::ordered_json json = gather(scene, pack_scene(scene, request.settings), request.settings);
+    if (options.json) {
+        print_json(json);
+    } else {
+        print_text(json);
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("info", "Say what a scene holds and needs, or which devices there are");
+    auto options = std::make_shared<Options>();
+    command->add_option("scene", options->arguments.request.scene, ".gltf or .glb file");
+    command->add_flag("--devices", options->devices, "List the devices, and what each lacks");
+    add_integrator_option(*command, options->arguments);
+    add_scene_options(*command, options->arguments);
+    command->add_flag("--layers,!--no-layers", options->layers, "Count the layers beside colour; on by default");
+    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->footer(examples);
+    command->callback([options, &run] { run = [options] { return run_info(*options); }; });
+}
+
+}  // namespace diptych::app
