@@ -37,8 +37,9 @@ FN float max_component(vec3 v) {
     return max(v.x, max(v.y, v.z));
 }
 
-/// Sine and cosine of x radians, |x| <= SIN_COS_MAX; (0, 1) beyond it and for NaN. Error 1.6 ulp for |x| <= 7, 3e-7 in all.
-/// The quadrant is taken off in three steps (Cody & Waite 1980), exactly while the quadrant's number has 14 bits.
+/// Sine and cosine of x radians, |x| <= SIN_COS_MAX; (0, 1) beyond it and for NaN. Error 1.6 ulp for
+/// |x| <= 7, and 3e-7 anywhere.
+/// pi/2 is taken off in three parts (Cody & Waite 1980; the split of Cephes).
 FN void sin_cos(float x, OUT(float) s, OUT(float) c) {
     float angle = abs(x) <= SIN_COS_MAX ? x : 0.0f;
     float quadrant = floor(angle * 0.636619772367581f + 0.5f);

@@ -64,11 +64,10 @@ FN vec3 direct_light(IN(Surface) s, IN(SurfaceBsdf) bsdf, vec3 wo, IN(Sampler) r
     if (!(light.pdf > 0.0f) || !(max_component(light.radiance) > 0.0f)) {
         return vec3(0.0f, 0.0f, 0.0f);
     }
-    vec3 f = surface_bsdf_eval(bsdf, wo, light.direction, features());
-    if (!(max_component(f) > 0.0f)) {
+    BsdfValue f = surface_bsdf_eval_pdf(bsdf, wo, light.direction, features());
+    if (!(max_component(f.value) > 0.0f)) {
         return vec3(0.0f, 0.0f, 0.0f);
     }
-    float pdf = needs_light_pdf() ? surface_bsdf_pdf(bsdf, wo, light.direction, features()) : 0.0f;
     float side = dot(light.direction, bsdf.geometric_normal) < 0.0f ? -1.0f : 1.0f;
     vec3 origin = offset_ray(s.position, side * bsdf.geometric_normal);
     vec3 direction = light.distant ? light.direction : light.end - origin;
@@ -77,7 +76,7 @@ FN vec3 direct_light(IN(Surface) s, IN(SurfaceBsdf) bsdf, vec3 wo, IN(Sampler) r
     if (trace_any(origin, direction, t_max, ray_alpha_key(random, 2u * depth + 1u))) {
         return vec3(0.0f, 0.0f, 0.0f);
     }
-    return f * light.radiance * (light_sampling_weight(light, pdf) / light.pdf);
+    return f.value * light.radiance * (light_sampling_weight(light, f.pdf) / light.pdf);
 }
 
 FN PathSample trace_path(uvec2 pixel, uint sample_index) {
@@ -85,7 +84,7 @@ FN PathSample trace_path(uvec2 pixel, uint sample_index) {
     random.pixel = pixel;
     random.sample_index = sample_index;
     random.seed = constants.seed;
-    random.kind = constants.sampler;
+    random.kind = constants.sampler_kind;
     random.sample_count = constants.sample_count;
 
     vec2 jitter = sample_2d(random, DIMENSION_FILM);

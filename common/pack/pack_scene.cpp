@@ -17,7 +17,7 @@ glm::dvec3 rebase_origin(const Scene& scene, const RenderSettings& settings) {
 void pack_settings(const RenderSettings& settings, shared::RenderConstants& c) {
     c.size = {static_cast<std::uint32_t>(settings.width), static_cast<std::uint32_t>(settings.height)};
     c.seed = settings.seed;
-    c.sampler = static_cast<std::uint32_t>(settings.sampler);
+    c.sampler_kind = static_cast<std::uint32_t>(settings.sampler);
     c.sample_count = settings.sample_count;
     c.max_depth = settings.max_depth;
     c.integrator = static_cast<std::uint32_t>(settings.integrator);
