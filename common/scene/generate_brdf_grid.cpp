@@ -58,8 +58,8 @@ GeneratedScene generate_brdf_grid(const GenerateOptions&) {
         }
     }
     const int housing = add_material(scene, make_material("housing", glm::vec3(0.05F), 0, 0.6F));
-    add_lamp(scene, "large lamp", housing, 1.2F, 1.2F, {7, 7, 7.5F}, {-5, 6, 6}, {0, 2.5, 0});
-    add_lamp(scene, "small lamp", housing, 0.3F, 0.3F, {70, 62, 50}, {5, 5.5, 5}, {0, 2.5, 0});
+    add_lamp(scene, "large lamp", housing, 1.2F, 1.2F, {12, 12, 12.8F}, {-5, 6, 6}, {0, 2.5, 0});
+    add_lamp(scene, "small lamp", housing, 0.3F, 0.3F, {110, 98, 80}, {5, 5.5, 5}, {0, 2.5, 0});
 
     scene.cameras.push_back(make_camera("camera", {0, 2.75, 10.5}, {0, 2.75, 0}, 32));
     return out;

@@ -114,8 +114,8 @@ GeneratedScene generate_courtyard(const GenerateOptions&) {
     Scene& scene = out.scene;
     scene.name = "courtyard";
     scene.environment.kind = Environment::Kind::constant;
-    scene.environment.scale = {2.2F, 2.6F, 3.2F};
-    out.recommended_arguments = "--env 2.2,2.6,3.2";
+    scene.environment.scale = {1.8F, 2.1F, 2.6F};
+    out.recommended_arguments = "--env 1.8,2.1,2.6";
 
     const int stone = add_material(scene, make_material("stone", {0.62F, 0.56F, 0.46F}, 0, 0.8F));
     const int plaster = add_material(scene, make_material("plaster", {0.7F, 0.38F, 0.25F}, 0, 0.9F));
@@ -164,7 +164,7 @@ GeneratedScene generate_courtyard(const GenerateOptions&) {
         for (int r = 0; r < 3; ++r)
             instance.object_to_world[3][r] = std::round(instance.object_to_world[3][r] * 1e6) / 1e6;
 
-    scene.cameras.push_back(make_camera("camera", {-7.6, 1.9, 7.4}, {1.2, 1.9, -2.0}, 55));
+    scene.cameras.push_back(make_camera("camera", {-8.6, 1.75, 3.6}, {0, 2.0, -0.5}, 60));
     scene.cameras.push_back(make_camera("court", {4.6, 1.7, 5.0}, {-2.0, 2.0, -3.0}, 60));
     return out;
 }

@@ -152,7 +152,7 @@ GeneratedScene generate_many_lights(const GenerateOptions& options) {
 
     // The whole street receives about the same power whatever the count; log-uniform levels have a mean of about max /
     // ln(10^6).
-    constexpr double street_power = 9e4;  // W
+    constexpr double street_power = 3e4;  // W
     const double mean_level = (1 - std::pow(10.0, -decades)) / (decades * std::log(10.0));
     const double strongest =
         street_power / (3.14159265358979 * width * height * double(options.count) / 2 * mean_level);

@@ -117,7 +117,7 @@ GeneratedScene generate_mirror_maze(const GenerateOptions& options) {
         }
     }
 
-    constexpr std::array<glm::vec3, 4> glows{{{60, 52, 40}, {60, 14, 20}, {12, 30, 60}, {14, 50, 24}}};
+    constexpr std::array<glm::vec3, 4> glows{{{150, 130, 100}, {150, 40, 60}, {40, 90, 180}, {50, 150, 80}}};
     constexpr std::array<const char*, 4> glow_names{"warm lamp", "red lamp", "blue lamp", "green lamp"};
     for (std::size_t i = 0; i < glows.size(); ++i) {
         const int light = add_material(scene, make_emitter(glow_names[i], glows[i]));

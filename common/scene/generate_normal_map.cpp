@@ -115,9 +115,11 @@ GeneratedScene generate_normal_map(const GenerateOptions&) {
     Primitive lamp;
     lamp.material = add_material(scene, make_emitter("lamp", {30, 28, 25}));
     add_quad(lamp, {-2.5F, 3.2F, -1.6F}, {-2.5F, 3.2F, -2.4F}, {-1.7F, 3.6F, -2.4F}, {-1.7F, 3.6F, -1.6F});
-    for (glm::uvec3& triangle : lamp.triangles)
-        std::swap(triangle.y, triangle.z);
     add_object(scene, "lamp", {lamp});
+    Primitive fill;
+    fill.material = add_material(scene, make_emitter("fill", {1.2F, 1.3F, 1.5F}));
+    add_quad(fill, {-1.5F, 3.5F, 3}, {-1.5F, 3, 2}, {1.5F, 3, 2}, {1.5F, 3.5F, 3});
+    add_object(scene, "fill", {fill});
     const int bulb = add_material(scene, make_emitter("bulb", {60, 100, 200}));
     add_object(scene, "bulb", {make_sphere(0.05F, 32, 16, bulb)}, translation(1.4, 0.5, -2.2));
 
