@@ -146,7 +146,7 @@ FN float pow_poly(float base, float e) {
     return e == 0.0f ? 1.0f : exp2_poly(e * log2_poly(base));
 }
 
-/// ln(1 + x), x > -1; accurate for tiny x. Negative infinity at -1, NaN below. Error 3.4 ulp.
+/// ln(1 + x), x > -1; accurate for tiny x. Negative infinity at -1, NaN below. Error 3.5 ulp.
 FN float log1p_poly(float x) {
     if (x > -0.292893f && x < 0.414213f) {
         return log1p_reduced(x);

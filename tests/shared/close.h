@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cmath>
+
+namespace diptych::tests {
+
+/// |a - b| <= relative |b|.
+inline bool close(double a, double b, double relative) {
+    return std::abs(a - b) <= relative * std::abs(b);
+}
+
+}  // namespace diptych::tests

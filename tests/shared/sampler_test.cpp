@@ -1,0 +1,208 @@
+// The three samplers: uniform, pure, and stratified as each promises.
+#include "sampler.h"
+
+#include "catch.h"
+#include "chi_square.h"
+
+#include <cmath>
+#include <set>
+
+using namespace diptych::shared;
+using diptych::tests::deviate_limit;
+using diptych::tests::uniform_deviate;
+
+namespace {
+
+Sampler make_sampler(uint kind, uvec2 pixel, uint index, uint seed, uint count) {
+    Sampler s;
+    s.pixel = pixel;
+    s.sample_index = index;
+    s.seed = seed;
+    s.kind = kind;
+    s.sample_count = count;
+    return s;
+}
+
+const uint kinds[] = {SAMPLER_INDEPENDENT, SAMPLER_HAMMERSLEY, SAMPLER_SOBOL};
+
+/// Chi-square over 32 x 32 cells of pairs that `pair` makes from a running number.
+template <typename Pair>
+double pair_deviate(Pair pair) {
+    std::vector<double> cells(32 * 32);
+    for (uint i = 0; i < 200000; i++) {
+        const vec2 p = pair(i);
+        cells[std::size_t(p.x * 32) * 32 + std::size_t(p.y * 32)] += 1;
+    }
+    return uniform_deviate(cells);
+}
+
+}  // namespace
+
+TEST_CASE("Every sampler is a pure function into [0, 1)") {
+    for (const uint kind : kinds) {
+        for (uint i = 0; i < 20000; i++) {
+            const Sampler s = make_sampler(kind, uvec2(i % 61, i % 17), i % 64, i / 1000, 64);
+            const uint dimension = 2 * (i % 70);
+            const vec2 u = sample_2d(s, dimension);
+            REQUIRE((u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1));
+            REQUIRE(u == sample_2d(s, dimension));
+            REQUIRE(u.x == sample_1d(s, dimension));
+            REQUIRE(unit_float(sample_bits_2d(s, dimension).y) == u.y);
+        }
+    }
+}
+
+TEST_CASE("Every sampler is uniform over pixels and over seeds, sample by sample") {
+    for (const uint kind : kinds) {
+        for (const uint dimension : {DIMENSION_FILM, DIMENSION_LENS, DIMENSION_VERTEX + DIMENSION_BSDF_DIRECTION}) {
+            CAPTURE(kind, dimension);
+            CHECK(std::abs(pair_deviate([&](uint i) {
+                      return sample_2d(make_sampler(kind, uvec2(i % 640, i / 640), 5, 1, 16), dimension);
+                  })) < deviate_limit);
+            CHECK(std::abs(pair_deviate([&](uint i) {
+                      return sample_2d(make_sampler(kind, uvec2(7, 9), 15, i, 16), dimension);
+                  })) < deviate_limit);
+        }
+    }
+}
+
+TEST_CASE("Dimensions, neighbouring pixels, samples and seeds are uncorrelated") {
+    for (const uint kind : kinds) {
+        CAPTURE(kind);
+        const auto first = [&](uvec2 pixel, uint index, uint seed, uint dimension) {
+            return sample_1d(make_sampler(kind, pixel, index, seed, 16), dimension);
+        };
+        CHECK(std::abs(pair_deviate([&](uint i) {
+                  const uvec2 pixel(i % 640, i / 640);
+                  return vec2(first(pixel, 3, 1, DIMENSION_FILM), first(pixel, 3, 1, DIMENSION_LENS));
+              })) < deviate_limit);
+        CHECK(std::abs(pair_deviate([&](uint i) {
+                  const uvec2 pixel(i % 640, i / 640);
+                  return vec2(first(pixel, 3, 1, DIMENSION_VERTEX),
+                              first(pixel, 3, 1, DIMENSION_VERTEX + DIMENSIONS_PER_VERTEX));
+              })) < deviate_limit);
+        CHECK(std::abs(pair_deviate([&](uint i) {
+                  return vec2(first(uvec2(i % 640, i / 640), 3, 1, DIMENSION_FILM),
+                              first(uvec2(i % 640 + 1, i / 640), 3, 1, DIMENSION_FILM));
+              })) < deviate_limit);
+        CHECK(std::abs(pair_deviate([&](uint i) {
+                  const uvec2 pixel(i % 640, i / 640);
+                  return vec2(first(pixel, 3, 1, DIMENSION_FILM), first(pixel, 3, 2, DIMENSION_FILM));
+              })) < deviate_limit);
+    }
+    CHECK(std::abs(pair_deviate([&](uint i) {
+              return vec2(sample_1d(make_sampler(SAMPLER_INDEPENDENT, uvec2(1, 2), i, 1, 1), DIMENSION_FILM),
+                          sample_1d(make_sampler(SAMPLER_INDEPENDENT, uvec2(1, 2), i + 1, 1, 1), DIMENSION_FILM));
+          })) < deviate_limit);
+}
+
+TEST_CASE("Hammersley puts one sample into each of N intervals, rotation undone") {
+    for (const uint count : {1u, 2u, 7u, 16u, 100u, 1024u, 65537u}) {
+        const uvec2 pixel(12, 34);
+        const uint seed = 99;
+        for (const uint dimension : {DIMENSION_FILM, DIMENSION_LENS}) {
+            const Sampler base = make_sampler(SAMPLER_HAMMERSLEY, pixel, 0, seed, count);
+            const uvec4 words = pixel_words(base, dimension, 0x48616d6du);
+            std::set<uint> intervals;
+            std::set<uint> inverses;
+            for (uint i = 0; i < count; i++) {
+                const uvec2 bits = sample_bits_2d(make_sampler(SAMPLER_HAMMERSLEY, pixel, i, seed, count), dimension);
+                intervals.insert(multiply_high(bits.x - words.x, count));
+                inverses.insert(bitfieldReverse(bits.y - words.y));
+            }
+            CAPTURE(count, dimension);
+            CHECK(intervals.size() == count);
+            CHECK(inverses.size() == count);
+            CHECK(*inverses.rbegin() == count - 1);
+        }
+    }
+}
+
+TEST_CASE("Stratum centres are exact") {
+    for (const uint n : {1u, 3u, 1000u, 65537u, 5000001u, HAMMERSLEY_MAX_COUNT}) {
+        for (const uint i : {0u, n / 3, n / 2, n - 1}) {
+            const std::uint64_t exact = ((2 * std::uint64_t{i} + 1) << 32U) / (2 * std::uint64_t{n});
+            CHECK(stratum_center_bits(i, n) == exact);
+        }
+    }
+}
+
+TEST_CASE("permute_index permutes, and keys differ") {
+    for (const uint n : {1u, 2u, 3u, 5u, 64u, 100u, 1000u}) {
+        uint same = 0;
+        for (uint key = 0; key < 20; key++) {
+            std::set<uint> seen;
+            for (uint i = 0; i < n; i++) {
+                seen.insert(permute_index(i, n, hash_word(key + 1)));
+                same += permute_index(i, n, hash_word(key + 1)) == i ? 1u : 0u;
+            }
+            CHECK(seen.size() == n);
+            CHECK(*seen.rbegin() == n - 1);
+        }
+        if (n >= 64) {
+            CHECK(same < 20 * n / 4);
+        }
+    }
+}
+
+TEST_CASE("Hammersley past its set and past the lens is independent") {
+    for (const auto& [index, dimension] : {std::pair{64u, DIMENSION_FILM}, std::pair{3u, DIMENSION_VERTEX}}) {
+        const Sampler hammersley = make_sampler(SAMPLER_HAMMERSLEY, uvec2(1, 2), index, 3, 64);
+        const Sampler independent = make_sampler(SAMPLER_INDEPENDENT, uvec2(1, 2), index, 3, 64);
+        CHECK(sample_bits_2d(hammersley, dimension) == sample_bits_2d(independent, dimension));
+    }
+}
+
+TEST_CASE("Sobol' points are a (0, m, 2)-net for every power of two") {
+    for (const uint dimension : {DIMENSION_FILM, DIMENSION_LENS, SOBOL_MAX_DIMENSION - 2}) {
+        for (uint seed = 0; seed < 8; seed++) {
+            for (uint m = 0; m <= 10; m++) {
+                const uint count = 1u << m;
+                for (uint first = 0; first < 3 * count; first += count) {
+                    for (uint split = 0; split <= m; split++) {
+                        std::set<uint> cells;
+                        for (uint i = first; i < first + count; i++) {
+                            const Sampler s = make_sampler(SAMPLER_SOBOL, uvec2(seed, 3), i, seed, count);
+                            const uvec2 bits = sample_bits_2d(s, dimension);
+                            const uint column = split == 0 ? 0 : bits.x >> (32 - split);
+                            const uint row = split == m ? 0 : bits.y >> (32 - (m - split));
+                            cells.insert((column << (m - split)) | row);
+                        }
+                        REQUIRE(cells.size() == count);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("Sobol' from SOBOL_MAX_DIMENSION on is independent") {
+    const Sampler sobol = make_sampler(SAMPLER_SOBOL, uvec2(1, 2), 7, 3, 64);
+    const Sampler independent = make_sampler(SAMPLER_INDEPENDENT, uvec2(1, 2), 7, 3, 64);
+    CHECK(sample_bits_2d(sobol, SOBOL_MAX_DIMENSION) == sample_bits_2d(independent, SOBOL_MAX_DIMENSION));
+    CHECK(sample_bits_2d(sobol, DIMENSION_VERTEX) != sample_bits_2d(independent, DIMENSION_VERTEX));
+}
+
+TEST_CASE("Estimates over seeds are unbiased, and stratified ones vary less") {
+    // f(x, y) = [x^2 + y^2 < 1], mean pi/4.
+    double variance[3] = {};
+    for (const uint kind : kinds) {
+        double sum = 0, squares = 0;
+        constexpr uint seeds = 4000, count = 16;
+        for (uint seed = 0; seed < seeds; seed++) {
+            double hits = 0;
+            for (uint i = 0; i < count; i++) {
+                const vec2 u = sample_2d(make_sampler(kind, uvec2(5, 5), i, seed, count), DIMENSION_LENS);
+                hits += u.x * u.x + u.y * u.y < 1 ? 1.0 / count : 0.0;
+            }
+            sum += hits;
+            squares += hits * hits;
+        }
+        const double mean = sum / seeds;
+        variance[kind] = squares / seeds - mean * mean;
+        CAPTURE(kind);
+        CHECK(std::abs(mean - 0.785398163397448) < 4.5 * std::sqrt(variance[kind] / seeds));
+    }
+    CHECK(variance[SAMPLER_HAMMERSLEY] < 0.5 * variance[SAMPLER_INDEPENDENT]);
+    CHECK(variance[SAMPLER_SOBOL] < 0.5 * variance[SAMPLER_INDEPENDENT]);
+}

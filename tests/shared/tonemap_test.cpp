@@ -1,0 +1,78 @@
+// Tone maps: known values, monotone, defined for any input.
+#include "tonemap.h"
+
+#include "catch.h"
+#include "close.h"
+
+#include <cmath>
+
+using namespace diptych::shared;
+using diptych::tests::close;
+
+namespace {
+
+const uint operators[] = {TONEMAP_EXPONENTIAL, TONEMAP_UNCHARTED2, TONEMAP_ACES, TONEMAP_PBR_NEUTRAL};
+
+vec3 gray(float x) {
+    return vec3(x, x, x);
+}
+
+}  // namespace
+
+TEST_CASE("Tone maps take black to black and rise") {
+    for (const uint op : operators) {
+        CAPTURE(op);
+        CHECK(std::abs(tonemap(op, gray(0)).x) < 1e-6f);
+        float previous = -1;
+        for (float x = 0; x < 50; x += 0.01f) {
+            const float y = tonemap(op, gray(x)).x;
+            REQUIRE(y >= previous - 1e-6f);
+            previous = y;
+        }
+        CHECK(previous > 0.9f);
+        CHECK(tonemap(op, gray(0.5f)).x > tonemap(op, gray(0.1f)).x + 0.1f);
+    }
+}
+
+TEST_CASE("Tone maps have the values of their formulas") {
+    CHECK(tonemap(TONEMAP_NONE, vec3(3, -1, 0.5f)) == vec3(3, -1, 0.5f));
+    CHECK(close(tonemap(TONEMAP_EXPONENTIAL, gray(1)).y, 1 - std::exp(-1.0), 1e-6));
+    CHECK(close(tonemap(TONEMAP_UNCHARTED2, gray(5.6f)).x, 1, 1e-6));  // Hable's white
+    CHECK(close(tonemap(TONEMAP_ACES, gray(1)).z, 2.54 / 3.16, 1e-6));
+    // PBR Neutral shifts base colours by 0.04 and nothing else ...
+    const vec3 shifted = tonemap(TONEMAP_PBR_NEUTRAL, vec3(0.2f, 0.5f, 0.7f));
+    CHECK(length(shifted - vec3(0.16f, 0.46f, 0.66f)) < 1e-6f);
+    // ... joins at 0.8, and bleaches what is bright.
+    CHECK(close(tonemap(TONEMAP_PBR_NEUTRAL, gray(0.8f)).x, 0.76, 1e-5));
+    CHECK(close(tonemap(TONEMAP_PBR_NEUTRAL, gray(0.8001f)).x, 0.7601, 1e-5));
+    const vec3 bright = tonemap(TONEMAP_PBR_NEUTRAL, vec3(100, 0, 0));
+    CHECK(bright.x > 0.99f);
+    CHECK(bright.y == bright.z);
+    CHECK(bright.y > 0.9f);
+}
+
+TEST_CASE("Tone maps are defined for any input") {
+    for (const uint op : operators) {
+        for (const float x : {-1.0f, float(INFINITY), -float(INFINITY), float(NAN), 3e38f, 1e-40f}) {
+            const vec3 y = tonemap(op, vec3(x, 0.5f, x));
+            CAPTURE(op, x);
+            CHECK(std::isfinite(y.x));
+            CHECK((y.x >= 0 && y.y >= 0 && y.z >= 0));
+        }
+    }
+}
+
+TEST_CASE("The sRGB curve: known values, inverse, clamped") {
+    const vec3 encoded = srgb_encode(vec3(0.5f, 0.0031308f, 0.001f));
+    CHECK(close(encoded.x, 0.7353569830524495, 1e-6));
+    CHECK(close(encoded.y, 0.04045, 1e-4));
+    CHECK(close(encoded.z, 0.01292, 1e-6));
+    for (int i = 0; i <= 255; i++) {
+        const double e = i / 255.0;
+        const double linear = e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055) / 1.055, 2.4);
+        REQUIRE(std::abs(double(srgb_decode(float(e))) - linear) <= 3e-6 * linear);
+        REQUIRE(std::abs(double(srgb_encode(gray(srgb_decode(float(e)))).x) - e) < 1e-6);
+    }
+    CHECK(srgb_encode(vec3(-1, 2, NAN)) == vec3(0, srgb_encode(gray(1)).x, 0));
+    CHECK(close(srgb_encode(gray(1)).x, 1, 1e-6));
+}
