@@ -61,7 +61,8 @@ FN TriangleView triangle_view(vec3 reference, vec3 v0, vec3 e1, vec3 e2) {
     TriangleView view;
     PRECISE vec3 a = v0 - reference;
     float extent = max(largest_magnitude(a), max(largest_magnitude(e1), largest_magnitude(e2)));
-    float scale = extent > 0.0f ? 0.5f / extent : 0.0f;
+    // A power of two, so that edges which nearly cancel keep their difference.
+    float scale = uintBitsToFloat((253u - min(floatBitsToUint(extent) >> 23, 252u)) << 23);
     view.scale = scale;
     view.a = a * scale;
     view.e1 = e1 * scale;
