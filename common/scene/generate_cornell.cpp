@@ -93,9 +93,10 @@ GeneratedScene generate_cornell(const GenerateOptions&) {
     add_object(scene, "short block", {block_of(short_top, white_id)});
     add_object(scene, "tall block", {block_of(tall_top, white_id)});
 
-    // Focal length 35 mm on a film of 25 mm by 25 mm.
+    // Focal length 35 mm on a film of 25 mm by 25 mm; rounded, as arc tangents differ between machines in the last
+    // digit.
     Camera camera = make_camera("camera", {0.278, 0.273, -0.8}, {0.278, 0.273, 0}, 45);
-    camera.vertical_fov = 2 * std::atan(0.0125 / 0.035);
+    camera.vertical_fov = std::round(2 * std::atan(0.0125 / 0.035) * 1e9) / 1e9;
     camera.aspect = 1;
     scene.cameras.push_back(camera);
     return out;

@@ -3,7 +3,6 @@
 #include "scene/generate_scenes.h"
 #include "scene/generate_shapes.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
 namespace diptych {
@@ -30,8 +29,10 @@ GeneratedScene generate_furnace(const GenerateOptions&) {
     Primitive block;
     block.material = material;
     add_box(block, {-0.25F, -0.25F, -0.25F}, {0.25F, 0.25F, 0.25F});
-    add_object(scene, "block", {block},
-               glm::rotate(translation(0.45, -0.2, -0.2), 0.6, glm::normalize(glm::dvec3(1, 2, 0.5))));
+    // Turned by angles whose sines and cosines are quotients, so that no machine rounds them another way.
+    const glm::dmat3 about_y(0.8, 0, -0.6, 0, 1, 0, 0.6, 0, 0.8);
+    const glm::dmat3 about_x(1, 0, 0, 0, 12.0 / 13, 5.0 / 13, 0, -5.0 / 13, 12.0 / 13);
+    add_object(scene, "block", {block}, translation(0.45, -0.2, -0.2) * glm::dmat4(about_y * about_x));
 
     scene.cameras.push_back(make_camera("camera", {0, 0.2, 0.9}, {0, -0.1, -1}, 60));
     return out;
