@@ -49,7 +49,7 @@ TEST_CASE("Blinn-Phong D is normalised for exponents from 0 to 1e5") {
             sum += blinn_phong_d(h, a) * c * M_PI * c * c * c * alpha * alpha / ((1.0 - x) * (1.0 - x));
         }
         INFO("n " << n);
-        CHECK(is_near(sum / steps, 1.0, 1e-4));
+        CHECK(close(sum / steps, 1.0, 1e-4));
     }
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("Blinn-Phong facets are unit and finite at the ends of their inputs") 
     for (const float alpha : {1e-4f, 1e-3f, 0.3f, 0.55f, 1.0f}) {
         for (const float y : {0.0f, 0x1p-24f, 0.25f, 0.5f, 1.0f - 0x1p-24f, 1.0f}) {
             const vec3 h = sample_blinn_phong_normal(alpha, vec2(0.3f, y));
-            CHECK(is_near(length(h), 1.0, 1e-6));
+            CHECK(close(length(h), 1.0, 1e-6));
             CHECK(h.z > 0.0f);
         }
         for (const double cosine : {1e-7, 1e-5, 1.0}) {

@@ -25,7 +25,7 @@ bool is_finite(float x) {
 }
 
 bool is_sane(const BsdfSample& s) {
-    bool ok = is_finite(s.pdf) && s.pdf >= 0.0f && is_near(length(s.direction), 1.0, 1e-5);
+    bool ok = is_finite(s.pdf) && s.pdf >= 0.0f && close(length(s.direction), 1.0, 1e-5);
     for (int i = 0; i < 3; ++i) {
         ok = ok && is_finite(s.weight[i]) && s.weight[i] >= -1e-6f;
     }
@@ -63,7 +63,7 @@ TEST_CASE("Parameters follow metallic-roughness and KHR_materials_specular") {
     const vec3 base(0.9f, 0.5f, 0.1f);
     BsdfParameters p = bsdf_parameters(base, 0.0f, 0.5f, 0.04f, 0.5f, vec3(1.0f, 50.0f, 0.0f), BRDF_GGX);
     CHECK(p.diffuse == base);
-    CHECK(is_near(p.f0.x, 0.02, 1e-6));
+    CHECK(close(p.f0.x, 0.02, 1e-6));
     CHECK(p.f0.y == 0.5f);
     CHECK(p.f0.z == 0.0f);
     CHECK(p.f90 == vec3(0.5f, 0.5f, 0.5f));
@@ -73,8 +73,8 @@ TEST_CASE("Parameters follow metallic-roughness and KHR_materials_specular") {
     CHECK(p.f0 == base);
     CHECK(p.f90 == vec3(1.0f, 1.0f, 1.0f));
     p = bsdf_parameters(base, 0.5f, 1.0f, 0.04f, 1.0f, vec3(1.0f, 1.0f, 1.0f), BRDF_GGX);
-    CHECK(is_near(p.f0.x, 0.47, 1e-6));
-    CHECK(is_near(p.diffuse.x, 0.45, 1e-6));
+    CHECK(close(p.f0.x, 0.47, 1e-6));
+    CHECK(close(p.diffuse.x, 0.45, 1e-6));
 }
 
 TEST_CASE("The mix equals the textbook's in double precision") {
@@ -130,9 +130,9 @@ TEST_CASE("Directions are drawn with the density that the triple states") {
                     const vec3 f = bsdf_eval_local(c.p, wo, wi, all_features);
                     const float pdf = bsdf_pdf_local(c.p, wo, wi, all_features);
                     for (int i = 0; i < 3; ++i) {
-                        inconsistent += is_near_absolute(s.weight[i], f[i] / pdf, 1e-3 * s.weight[i] + 1e-6) ? 0 : 1;
+                        inconsistent += std::abs(s.weight[i] - f[i] / pdf) <= 1e-3 * s.weight[i] + 1e-6 ? 0 : 1;
                     }
-                    inconsistent += is_near(s.pdf, pdf, 1e-3) ? 0 : 1;
+                    inconsistent += close(s.pdf, pdf, 1e-3) ? 0 : 1;
                 }
                 return s.pdf > 0.0f;
             };
@@ -276,7 +276,7 @@ TEST_CASE("Below the least roughness a surface is a mirror, apart from its diffu
     for (int k = 0; k < 20000; ++k) {
         sum += bsdf_sample_local(metal(0.0101f, BRDF_GGX), wo, 0.3f, u.next_pair(), all_features).weight.x;
     }
-    CHECK(is_near(sum / 20000.0, 1.0, 1e-3));
+    CHECK(close(sum / 20000.0, 1.0, 1e-3));
 }
 
 TEST_CASE("Features that the data does not use change no bit") {

@@ -71,7 +71,7 @@ TEST_CASE("A bent normal is the nearest one that wo is above") {
         const vec3 n = bent_normal(ns, ng, wo);
         const bool was_above = dot(ns, wo) >= BENT_COS;
         bent += was_above ? 0 : 1;
-        bool ok = is_near(length(n), 1.0, 1e-6) && dot(n, ng) > 0.0f && dot(n, wo) > 0.99f * BENT_COS;
+        bool ok = close(length(n), 1.0, 1e-6) && dot(n, ng) > 0.0f && dot(n, wo) > 0.99f * BENT_COS;
         if (was_above) {
             ok = ok && (same_bits(n, ns) || ns.z <= 0.0f);
         } else {
@@ -158,9 +158,8 @@ TEST_CASE("A mapped surface draws directions with the density that it states") {
                 const float pdf = surface_bsdf_pdf(s, wo, wi, all_features);
                 const vec3 f = surface_bsdf_eval(s, wo, wi, all_features);
                 inconsistent +=
-                    is_near(r.pdf, pdf, 1e-3) && is_near(r.weight.x, f.x / pdf, 1e-3) && is_near(length(wi), 1.0, 1e-6)
-                        ? 0
-                        : 1;
+                    close(r.pdf, pdf, 1e-3) && close(r.weight.x, f.x / pdf, 1e-3) && close(length(wi), 1.0, 1e-6) ? 0
+                                                                                                                  : 1;
             }
             return r.pdf > 0.0f;
         };
@@ -299,7 +298,7 @@ TEST_CASE("Degenerate normals and directions give finite values") {
                         const BsdfSample r = surface_bsdf_sample(s, wo, u_lobe, u.next_pair(), all_features);
                         const vec3 f = surface_bsdf_eval(s, wo, r.direction, all_features);
                         const bool ok = r.pdf >= 0.0f && r.pdf < 1e30f && r.weight.x >= -1e-6f && r.weight.x < 1e30f &&
-                                        f.x >= -1e-6f && f.x < 1e30f && is_near(length(r.direction), 1.0, 1e-5);
+                                        f.x >= -1e-6f && f.x < 1e30f && close(length(r.direction), 1.0, 1e-5);
                         bad += ok ? 0 : 1;
                     }
                 }
