@@ -118,6 +118,30 @@ TEST_CASE("Hammersley puts one sample into each of N intervals, rotation undone"
     }
 }
 
+TEST_CASE("Hammersley's lens is in no step with its film within a pixel") {
+    // 8 x 8 cells, N = 1000 samples; both margins are stratified, so Pearson's statistic has 49 degrees of freedom.
+    constexpr uint count = 1000, pixels = 400;
+    for (int film = 0; film < 2; film++) {
+        for (int lens = 0; lens < 2; lens++) {
+            double statistic = 0;
+            for (uint pixel = 0; pixel < pixels; pixel++) {
+                double cells[64] = {};
+                for (uint i = 0; i < count; i++) {
+                    const Sampler s = make_sampler(SAMPLER_HAMMERSLEY, uvec2(pixel, 3), i, 1, count);
+                    const float x = sample_2d(s, DIMENSION_FILM)[film], y = sample_2d(s, DIMENSION_LENS)[lens];
+                    cells[std::size_t(x * 8) * 8 + std::size_t(y * 8)] += 1;
+                }
+                for (const double cell : cells) {
+                    statistic += (cell - count / 64.0) * (cell - count / 64.0) / (count / 64.0);
+                }
+            }
+            CAPTURE(film, lens);
+            CHECK(statistic / (49 * pixels) > 0.9);
+            CHECK(statistic / (49 * pixels) < 1.1);
+        }
+    }
+}
+
 TEST_CASE("Stratum centres are exact") {
     for (const uint n : {1u, 3u, 1000u, 65537u, 5000001u, HAMMERSLEY_MAX_COUNT}) {
         for (const uint i : {0u, n / 3, n / 2, n - 1}) {
