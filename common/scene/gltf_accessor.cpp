@@ -41,8 +41,8 @@ Span find_span(const Document& document, int view_index, std::size_t offset, std
     const std::size_t available = offset > view.byteLength ? 0 : view.byteLength - offset;
     if (count > 0 && (available < size || (count - 1) > (available - size) / stride)) {
         fail(document, object,
-             std::to_string(count) + " elements at offset " + std::to_string(offset) + " end past " + view_name + " of " +
-                 std::to_string(view.byteLength) + " bytes");
+             std::to_string(count) + " elements at offset " + std::to_string(offset) + " end past " + view_name +
+                 " of " + std::to_string(view.byteLength) + " bytes");
     }
     if (count == 0) {
         return {bytes.data(), stride};
@@ -82,24 +82,34 @@ void copy(Span from, std::size_t count, std::size_t components, bool normalized,
 template <typename Number>
 void copy_typed(Span from, int type, std::size_t count, std::size_t components, bool normalized, Number* to) {
     switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: return copy<std::int8_t>(from, count, components, normalized, to);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return copy<std::uint8_t>(from, count, components, normalized, to);
-        case TINYGLTF_COMPONENT_TYPE_SHORT: return copy<std::int16_t>(from, count, components, normalized, to);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return copy<std::uint16_t>(from, count, components, normalized, to);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return copy<std::uint32_t>(from, count, components, normalized, to);
-        default: return copy<float>(from, count, components, normalized, to);
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return copy<std::int8_t>(from, count, components, normalized, to);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return copy<std::uint8_t>(from, count, components, normalized, to);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return copy<std::int16_t>(from, count, components, normalized, to);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return copy<std::uint16_t>(from, count, components, normalized, to);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return copy<std::uint32_t>(from, count, components, normalized, to);
+    default:
+        return copy<float>(from, count, components, normalized, to);
     }
 }
 
 std::size_t component_size(const Document& document, int type, const std::string& object) {
     switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
-        default: fail(document, object, "has componentType " + std::to_string(type) + ", which glTF 2.0 does not have");
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return 1;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return 4;
+    default:
+        fail(document, object, "has componentType " + std::to_string(type) + ", which glTF 2.0 does not have");
     }
 }
 
@@ -109,11 +119,12 @@ bool is_unsigned(int type) {
 }
 
 template <typename Number>
-void apply_sparse(const Document& document, const tinygltf::Accessor& accessor, std::size_t components, std::size_t size,
-                  const std::string& object, std::vector<Number>& numbers) {
+void apply_sparse(const Document& document, const tinygltf::Accessor& accessor, std::size_t components,
+                  std::size_t size, const std::string& object, std::vector<Number>& numbers) {
     const auto& sparse = accessor.sparse;
     if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count) {
-        fail(document, object, "sparse.count is " + std::to_string(sparse.count) + " of " + std::to_string(accessor.count));
+        fail(document, object,
+             "sparse.count is " + std::to_string(sparse.count) + " of " + std::to_string(accessor.count));
     }
     if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
         fail(document, object, "sparse has a negative byteOffset");
@@ -122,11 +133,12 @@ void apply_sparse(const Document& document, const tinygltf::Accessor& accessor, 
         fail(document, object, "sparse.indices.componentType is not an unsigned integer");
     }
     const auto count = static_cast<std::size_t>(sparse.count);
-    const Span index_span = find_span(document, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
-                                      count, component_size(document, sparse.indices.componentType, object),
-                                      object + ".sparse.indices");
-    const Span value_span = find_span(document, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
-                                      count, size, object + ".sparse.values");
+    const Span index_span =
+        find_span(document, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), count,
+                  component_size(document, sparse.indices.componentType, object), object + ".sparse.indices");
+    const Span value_span =
+        find_span(document, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count, size,
+                  object + ".sparse.values");
     std::vector<std::uint32_t> indices(count);
     copy_typed(index_span, sparse.indices.componentType, count, 1, false, indices.data());
     std::vector<Number> values(count * components);
@@ -176,7 +188,8 @@ const tinygltf::Accessor& find_accessor(const Document& document, int index, con
     return document.model.accessors[static_cast<std::size_t>(index)];
 }
 
-std::vector<float> read_numbers(const Document& document, int index, std::size_t components, const std::string& object) {
+std::vector<float> read_numbers(const Document& document, int index, std::size_t components,
+                                const std::string& object) {
     return read<float>(document, find_accessor(document, index, object), components, object);
 }
 

@@ -36,7 +36,8 @@ public:
             return {};
         }
         check_encoding(accessor(names, attribute), attribute);
-        return counted(pack<Vector>(read_numbers(document_, names.at(attribute), Vector::length(), name(attribute))), attribute);
+        return counted(pack<Vector>(read_numbers(document_, names.at(attribute), Vector::length(), name(attribute))),
+                       attribute);
     }
 
     // COLOR_0 with three or four components.

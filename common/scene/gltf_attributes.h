@@ -11,7 +11,8 @@
 
 namespace diptych::gltf {
 
-/// Raw vertex data; a vector is empty where the file has no such attribute. Joints and weights hold whole sets of four a vertex.
+/// Raw vertex data; a vector is empty where the file has no such attribute. Joints and weights hold whole sets of four
+/// a vertex.
 struct Attributes {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
@@ -22,8 +23,9 @@ struct Attributes {
     std::vector<std::vector<glm::vec4>> weights;
 };
 
-/// Reads what `primitive` names, morph targets applied by `morph_weights`; joints and weights only where `skinned`. `object` is the primitive's name in messages. Throws
-/// Error where an attribute's type is wrong, its data out of bounds, or its count not that of POSITION, which must be there.
+/// Reads what `primitive` names, morph targets applied by `morph_weights`; joints and weights only where `skinned`.
+/// `object` is the primitive's name in messages. Throws Error where an attribute's type is wrong, its data out of
+/// bounds, or its count not that of POSITION, which must be there.
 Attributes read_attributes(Document& document, const tinygltf::Primitive& primitive,
                            const std::vector<double>& morph_weights, bool skinned, const std::string& object);
 

@@ -43,9 +43,8 @@ std::filesystem::path from_utf8(const std::string& text) {
 }
 
 bool has_scheme(const std::string& uri) {
-    const auto end = std::find_if_not(uri.begin(), uri.end(), [](unsigned char c) {
-        return std::isalnum(c) || c == '+' || c == '.' || c == '-';
-    });
+    const auto end = std::find_if_not(
+        uri.begin(), uri.end(), [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '.' || c == '-'; });
     return end != uri.end() && *end == ':' && end - uri.begin() > 1;
 }
 

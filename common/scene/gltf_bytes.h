@@ -13,14 +13,15 @@ namespace diptych::gltf {
 /// Reads a whole file. Throws Error (its message without the file's name) where it is missing, a folder or unreadable.
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path);
 
-/// Decodes RFC 4648 base64; white space and missing padding are let through. Nothing where another character stands in it.
+/// Decodes RFC 4648 base64; white space and missing padding are let through. Nothing where another character stands in
+/// it.
 std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text);
 
 /// Turns %20 and its like into bytes; a '%' without two hex digits stays as it is.
 std::string decode_percent(std::string_view text);
 
-/// Reads what a buffer's or an image's URI points at: data URIs of any media type, else a file relative to `folder` (escaped or
-/// not). Throws Error (its message without the file's name).
+/// Reads what a buffer's or an image's URI points at: data URIs of any media type, else a file relative to `folder`
+/// (escaped or not). Throws Error (its message without the file's name).
 std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem::path& folder);
 
 /// The two chunks of a binary glTF.

@@ -25,7 +25,8 @@ bool is_supported(const std::string& extension) {
 }
 
 std::string one_line(std::string text) {
-    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
     while (!text.empty() && text.back() == ' ') {
         text.pop_back();
     }
@@ -224,7 +225,9 @@ std::string label(const char* table, std::size_t index, const std::string& name)
 }
 
 bool declares_extension(const Document& document, const std::string& name) {
-    const auto has = [&](const std::vector<std::string>& list) { return std::find(list.begin(), list.end(), name) != list.end(); };
+    const auto has = [&](const std::vector<std::string>& list) {
+        return std::find(list.begin(), list.end(), name) != list.end();
+    };
     return has(document.model.extensionsUsed) || has(document.model.extensionsRequired);
 }
 
@@ -261,7 +264,8 @@ Document read_document(const std::filesystem::path& path) {
     const bool read = reader.LoadASCIIFromString(&document.model, &errors, &warnings, text.data(),
                                                  static_cast<unsigned int>(text.size()), ".");
     if (!read) {
-        fail(document, "JSON", errors.empty() ? "is not valid glTF" : one_line(errors));
+        fail(document, "JSON",
+             errors.empty() ? "an object lacks a required property, such as a skin its joints" : one_line(errors));
     }
     pass_on_remarks(document, errors + warnings);
     read_buffers(document, buffers, std::move(chunks.binary));

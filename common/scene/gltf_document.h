@@ -41,8 +41,8 @@ std::string label(const char* table, std::size_t index, const std::string& name 
 /// True where `name` stands in extensionsUsed or extensionsRequired.
 bool declares_extension(const Document& document, const std::string& name);
 
-/// Reads a .gltf or .glb (told by its content) with its buffers and encoded images. Throws Error where the file, its JSON or a
-/// buffer cannot be read, or where it requires an extension that the import lacks.
+/// Reads a .gltf or .glb (told by its content) with its buffers and encoded images. Throws Error where the file, its
+/// JSON or a buffer cannot be read, or where it requires an extension that the import lacks.
 Document read_document(const std::filesystem::path& path);
 
 }  // namespace diptych::gltf

@@ -26,10 +26,15 @@ struct Context {
 
 Wrap wrap_mode(Document& document, int mode, const std::string& object) {
     switch (mode) {
-        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE: return Wrap::clamp;
-        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return Wrap::mirror;
-        case TINYGLTF_TEXTURE_WRAP_REPEAT: return Wrap::repeat;
-        default: warn(document, object, "wrap mode " + std::to_string(mode) + " is unknown; it repeats"); return Wrap::repeat;
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+        return Wrap::clamp;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+        return Wrap::mirror;
+    case TINYGLTF_TEXTURE_WRAP_REPEAT:
+        return Wrap::repeat;
+    default:
+        warn(document, object, "wrap mode " + std::to_string(mode) + " is unknown; it repeats");
+        return Wrap::repeat;
     }
 }
 
@@ -37,7 +42,8 @@ int import_image(Context& context, int index, const std::string& object) {
     if (index < 0 || static_cast<std::size_t>(index) >= context.document.images.size()) {
         fail(context.document, object, "there is no images[" + std::to_string(index) + "]");
     }
-    const auto [entry, added] = context.tables.images.try_emplace(index, static_cast<int>(context.tables.wanted_images.size()));
+    const auto [entry, added] =
+        context.tables.images.try_emplace(index, static_cast<int>(context.tables.wanted_images.size()));
     if (added) {
         context.tables.wanted_images.push_back(index);
     }
@@ -95,8 +101,8 @@ std::array<double, N> numbers(const tinygltf::Value& object, const char* key, st
     return fallback;
 }
 
-// KHR_texture_transform: offset · rotation · scale, where a positive angle turns counter-clockwise as seen in the image, whose
-// v axis points down.
+// KHR_texture_transform: offset · rotation · scale, where a positive angle turns counter-clockwise as seen in the
+// image, whose v axis points down.
 void apply_transform(const tinygltf::Value& extension, TextureSlot& slot, int& uv_set) {
     const std::array<double, 2> offset = numbers<2>(extension, "offset", {0, 0});
     const std::array<double, 2> scale = numbers<2>(extension, "scale", {1, 1});
@@ -121,7 +127,8 @@ TextureSlot import_slot(Context& context, int texture, int uv_set, const tinyglt
         apply_transform(found->second, slot, uv_set);
     }
     if (uv_set < 0 || uv_set > 1) {
-        warn(context.document, object, "reads UV set " + std::to_string(uv_set) + ", only 0 and 1 are supported; left out");
+        warn(context.document, object,
+             "reads UV set " + std::to_string(uv_set) + ", only 0 and 1 are supported; left out");
         return {};
     }
     slot.uv_set = uv_set;
@@ -140,7 +147,8 @@ TextureSlot import_slot(Context& context, const Info& info, const std::string& o
 }
 
 // A texture reference inside an extension, which tinygltf leaves as JSON.
-TextureSlot import_slot(Context& context, const tinygltf::Value& extension, const char* key, const std::string& object) {
+TextureSlot import_slot(Context& context, const tinygltf::Value& extension, const char* key,
+                        const std::string& object) {
     if (!extension.Has(key) || !extension.Get(key).IsObject()) {
         return {};
     }
@@ -166,15 +174,16 @@ float in_range(Document& document, double value, double low, double high, const 
 
 constexpr double unbounded = std::numeric_limits<float>::max();
 
-void import_extensions(Context& context, const tinygltf::Material& source, const std::string& object, Material& material) {
+void import_extensions(Context& context, const tinygltf::Material& source, const std::string& object,
+                       Material& material) {
     const auto extension = [&](const char* name) -> const tinygltf::Value* {
         const auto found = source.extensions.find(name);
         return found == source.extensions.end() ? nullptr : &found->second;
     };
     Document& document = context.document;
     if (const tinygltf::Value* strength = extension("KHR_materials_emissive_strength")) {
-        const float factor = in_range(document, number(*strength, "emissiveStrength", 1), 0, unbounded,
-                                      object + ".emissiveStrength");
+        const float factor =
+            in_range(document, number(*strength, "emissiveStrength", 1), 0, unbounded, object + ".emissiveStrength");
         material.emission = glm::min(material.emission * factor, glm::vec3(std::numeric_limits<float>::max()));
     }
     if (const tinygltf::Value* ior = extension("KHR_materials_ior")) {
@@ -183,11 +192,12 @@ void import_extensions(Context& context, const tinygltf::Material& source, const
         material.ior = value == 0 ? 0.0F : in_range(document, value, 1, unbounded, object + ".ior");
     }
     if (const tinygltf::Value* specular = extension("KHR_materials_specular")) {
-        material.specular = in_range(document, number(*specular, "specularFactor", 1), 0, 1, object + ".specularFactor");
+        material.specular =
+            in_range(document, number(*specular, "specularFactor", 1), 0, 1, object + ".specularFactor");
         const std::array<double, 3> color = numbers<3>(*specular, "specularColorFactor", {1, 1, 1});
         for (int i = 0; i < 3; ++i) {
-            material.specular_color[i] = in_range(document, color[static_cast<std::size_t>(i)], 0, unbounded,
-                                                  object + ".specularColorFactor");
+            material.specular_color[i] =
+                in_range(document, color[static_cast<std::size_t>(i)], 0, unbounded, object + ".specularColorFactor");
         }
         material.specular_texture = import_slot(context, *specular, "specularTexture", object);
         material.specular_color_texture = import_slot(context, *specular, "specularColorTexture", object);
@@ -214,14 +224,16 @@ Material import_material(Context& context, const tinygltf::Material& source, con
     Material material;
     material.name = source.name;
     for (std::size_t i = 0; i < 4 && i < pbr.baseColorFactor.size(); ++i) {
-        material.base_color[static_cast<int>(i)] = in_range(document, pbr.baseColorFactor[i], 0, 1, object + ".baseColorFactor");
+        material.base_color[static_cast<int>(i)] =
+            in_range(document, pbr.baseColorFactor[i], 0, 1, object + ".baseColorFactor");
     }
     material.metallic = in_range(document, pbr.metallicFactor, 0, 1, object + ".metallicFactor");
     material.roughness = in_range(document, pbr.roughnessFactor, 0, 1, object + ".roughnessFactor");
-    material.normal_scale = in_range(document, source.normalTexture.scale, -unbounded, unbounded, object + ".normalTexture.scale");
+    material.normal_scale =
+        in_range(document, source.normalTexture.scale, -unbounded, unbounded, object + ".normalTexture.scale");
     for (std::size_t i = 0; i < 3 && i < source.emissiveFactor.size(); ++i) {
-        material.emission[static_cast<int>(i)] = in_range(document, source.emissiveFactor[i], 0, unbounded,
-                                                          object + ".emissiveFactor");
+        material.emission[static_cast<int>(i)] =
+            in_range(document, source.emissiveFactor[i], 0, unbounded, object + ".emissiveFactor");
     }
     material.alpha_mode = alpha_mode(document, source.alphaMode, object);
     material.alpha_cutoff = in_range(document, source.alphaCutoff, 0, unbounded, object + ".alphaCutoff");

@@ -6,9 +6,9 @@
 
 namespace diptych::gltf {
 
-/// Fills the scene's materials (one for each of the file's, in its order), and the textures and images that they use. Values
-/// outside the specification's ranges are clamped with a warning. Throws Error where an index points nowhere or an image that is
-/// used cannot be decoded.
+/// Fills the scene's materials (one for each of the file's, in its order), and the textures and images that they use.
+/// Values outside the specification's ranges are clamped with a warning. Throws Error where an index points nowhere or
+/// an image that is used cannot be decoded.
 void import_materials(Document& document, Scene& scene);
 
 }  // namespace diptych::gltf

@@ -28,7 +28,8 @@ int find_material(const Document& document, Scene& scene, int index, const std::
 }
 
 // The bind pose, or whatever pose the joints are in: glTF 2.0, section 3.7.3.
-void apply_skin(Document& document, const std::vector<glm::dmat4>& joints, const std::string& object, Attributes& attributes) {
+void apply_skin(Document& document, const std::vector<glm::dmat4>& joints, const std::string& object,
+                Attributes& attributes) {
     if (attributes.joints.empty()) {
         warn(document, object, "stands in a skinned node, but has no JOINTS_0 and WEIGHTS_0; left unskinned");
         return;
@@ -69,7 +70,8 @@ void apply_skin(Document& document, const std::vector<glm::dmat4>& joints, const
     }
 }
 
-void warn_missing_uvs(Document& document, const Material& material, const Primitive& primitive, const std::string& object) {
+void warn_missing_uvs(Document& document, const Material& material, const Primitive& primitive,
+                      const std::string& object) {
     for (const TextureSlot* slot :
          {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
           &material.emission_texture, &material.specular_texture, &material.specular_color_texture}) {

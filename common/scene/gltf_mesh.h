@@ -15,8 +15,9 @@ struct MeshUse {
     std::vector<glm::dmat4> joints;  // joint to world, inverse bind matrix included; empty where there is no skin
 };
 
-/// Reads meshes[index] as `use` deforms it. Primitives without triangles or positions are left out with a warning. Throws Error
-/// where data lies out of bounds or counts disagree. A default material is appended to the scene on first need.
+/// Reads meshes[index] as `use` deforms it. Primitives without triangles or positions are left out with a warning.
+/// Throws Error where data lies out of bounds or counts disagree. A default material is appended to the scene on first
+/// need.
 Mesh import_mesh(Document& document, Scene& scene, int index, const MeshUse& use);
 
 }  // namespace diptych::gltf

@@ -38,7 +38,8 @@ glm::dmat4 rotation_matrix(Document& document, const std::vector<double>& q, con
     return matrix;
 }
 
-void check_size(const Document& document, const std::vector<double>& values, std::size_t size, const std::string& object) {
+void check_size(const Document& document, const std::vector<double>& values, std::size_t size,
+                const std::string& object) {
     if (!values.empty() && values.size() != size) {
         fail(document, object, "has " + std::to_string(values.size()) + " numbers instead of " + std::to_string(size));
     }
@@ -95,7 +96,8 @@ std::vector<int> find_parents(const Document& document) {
     return parents;
 }
 
-// All nodes from `roots` down, parents first. A chain of a million nodes must not exhaust the stack, so there is no recursion.
+// All nodes from `roots` down, parents first. A chain of a million nodes must not exhaust the stack, so there is no
+// recursion.
 std::vector<int> descend(const Document& document, const std::vector<int>& roots) {
     std::vector<int> order;
     std::vector<int> open(roots.rbegin(), roots.rend());

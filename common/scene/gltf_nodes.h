@@ -13,15 +13,15 @@ struct NodeTree {
     std::vector<int> visible;          // the nodes of the scene to render, parents before children
 };
 
-/// Walks the default scene, else the first, else all root nodes. Throws Error where an index points nowhere, a node has two
-/// parents or is its own ancestor, or a transform is not finite.
+/// Walks the default scene, else the first, else all root nodes. Throws Error where an index points nowhere, a node has
+/// two parents or is its own ancestor, or a transform is not finite.
 NodeTree read_nodes(Document& document);
 
 /// "nodes[3] (name)".
 std::string node_label(const Document& document, int node);
 
-/// `matrix` without scale, shear and mirroring: its -Z is kept exactly, +Y as far as that allows. Throws Error in the name of
-/// `object` where either axis has length 0.
+/// `matrix` without scale, shear and mirroring: its -Z is kept exactly, +Y as far as that allows. Throws Error in the
+/// name of `object` where either axis has length 0.
 glm::dmat4 without_scale(const Document& document, const glm::dmat4& matrix, const std::string& object);
 
 }  // namespace diptych::gltf

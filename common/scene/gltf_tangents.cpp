@@ -31,8 +31,8 @@ void flatten(Primitive& primitive) {
     for (std::uint32_t i = 0; i < primitive.triangles.size(); ++i) {
         primitive.triangles[i] = glm::uvec3(3 * i, 3 * i + 1, 3 * i + 2);
         const glm::dvec3 a(primitive.positions[3 * i]);
-        const glm::dvec3 normal = glm::cross(glm::dvec3(primitive.positions[3 * i + 1]) - a,
-                                             glm::dvec3(primitive.positions[3 * i + 2]) - a);
+        const glm::dvec3 normal =
+            glm::cross(glm::dvec3(primitive.positions[3 * i + 1]) - a, glm::dvec3(primitive.positions[3 * i + 2]) - a);
         const double length = glm::length(normal);
         const glm::vec3 unit = length > 0 && std::isfinite(length) ? glm::vec3(normal / length) : glm::vec3(0, 0, 1);
         primitive.normals.insert(primitive.normals.end(), 3, unit);

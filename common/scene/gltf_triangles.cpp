@@ -37,7 +37,8 @@ void drop_bad_triangles(Document& document, Primitive& primitive, const std::str
     primitive.triangles.erase(kept, primitive.triangles.end());
     warn_count(document, object, dropped, "triangles have a vertex that is not finite; dropped");
     if (good != positions.end()) {
-        std::replace_if(positions.begin(), positions.end(), [](glm::vec3 p) { return !is_finite(p); }, glm::vec3(*good));
+        std::replace_if(
+            positions.begin(), positions.end(), [](glm::vec3 p) { return !is_finite(p); }, glm::vec3(*good));
     }
 }
 
@@ -55,7 +56,8 @@ std::vector<glm::dvec3> face_normal_sums(const Primitive& primitive) {
     std::vector<glm::dvec3> sums(primitive.positions.size(), glm::dvec3(0));
     for (const glm::uvec3& t : primitive.triangles) {
         const glm::dvec3 a(primitive.positions[t.x]);
-        const glm::dvec3 normal = glm::cross(glm::dvec3(primitive.positions[t.y]) - a, glm::dvec3(primitive.positions[t.z]) - a);
+        const glm::dvec3 normal =
+            glm::cross(glm::dvec3(primitive.positions[t.y]) - a, glm::dvec3(primitive.positions[t.z]) - a);
         for (int k = 0; k < 3; ++k) {
             sums[t[k]] += normal;
         }
@@ -96,8 +98,8 @@ void clean_tangents(Document& document, Primitive& primitive, const std::string&
 
 }  // namespace
 
-std::vector<glm::uvec3> read_triangles(Document& document, const tinygltf::Primitive& primitive, std::size_t vertex_count,
-                                       const std::string& object) {
+std::vector<glm::uvec3> read_triangles(Document& document, const tinygltf::Primitive& primitive,
+                                       std::size_t vertex_count, const std::string& object) {
     const int mode = primitive.mode;
     if (mode >= TINYGLTF_MODE_POINTS && mode <= TINYGLTF_MODE_LINE_STRIP) {
         warn(document, object, "points and lines are left out");
@@ -123,7 +125,8 @@ std::vector<glm::uvec3> read_triangles(Document& document, const tinygltf::Primi
     std::vector<glm::uvec3> triangles;
     if (mode == TINYGLTF_MODE_TRIANGLES) {
         if (indices.size() % 3 != 0) {
-            warn(document, object, std::to_string(indices.size()) + " indices are no whole number of triangles; the rest is left out");
+            warn(document, object,
+                 std::to_string(indices.size()) + " indices are no whole number of triangles; the rest is left out");
         }
         triangles.reserve(indices.size() / 3);
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {

@@ -9,7 +9,8 @@
 namespace diptych::gltf {
 namespace {
 
-void import_perspective(Document& document, const tinygltf::PerspectiveCamera& source, const std::string& object, Camera& camera) {
+void import_perspective(Document& document, const tinygltf::PerspectiveCamera& source, const std::string& object,
+                        Camera& camera) {
     if (!(source.yfov > 0) || !(source.yfov < std::numbers::pi)) {
         fail(document, object + ".perspective.yfov", "is " + std::to_string(source.yfov) + ", not between 0 and pi");
     }
@@ -54,7 +55,9 @@ Camera import_camera(Document& document, int index, int node, const glm::dmat4& 
     const std::string object = label("cameras", static_cast<std::size_t>(index), source.name);
     const std::string& node_name = document.model.nodes[static_cast<std::size_t>(node)].name;
     Camera camera;
-    camera.name = !node_name.empty() ? node_name : !source.name.empty() ? source.name : "camera" + std::to_string(index);
+    camera.name = !node_name.empty()     ? node_name
+                  : !source.name.empty() ? source.name
+                                         : "camera" + std::to_string(index);
     camera.camera_to_world = without_scale(document, to_world, node_label(document, node));
     if (source.type == "orthographic") {
         import_orthographic(document, source.orthographic, object, camera);
@@ -89,7 +92,8 @@ std::optional<PunctualLight> import_light(Document& document, int node, const gl
         light.type = PunctualType::spot;
         const double quarter = std::numbers::pi / 2;
         light.outer_cone = angle_in(document, source.spot.outerConeAngle, 0, quarter, object + ".outerConeAngle");
-        light.inner_cone = angle_in(document, source.spot.innerConeAngle, 0, light.outer_cone, object + ".innerConeAngle");
+        light.inner_cone =
+            angle_in(document, source.spot.innerConeAngle, 0, light.outer_cone, object + ".innerConeAngle");
     } else if (source.type != "point") {
         fail(document, object + ".type", "is '" + source.type + "', which KHR_lights_punctual does not have");
     }

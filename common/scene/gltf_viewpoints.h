@@ -9,8 +9,8 @@ namespace diptych::gltf {
 /// The camera cameras[index] standing in `node`. Throws Error where its values make no view.
 Camera import_camera(Document& document, int index, int node, const glm::dmat4& to_world);
 
-/// The light that `node` names by KHR_lights_punctual, if any. Candela and lux are taken as W/sr and W/m^2. Throws Error where
-/// the light is not there or of an unknown type.
+/// The light that `node` names by KHR_lights_punctual, if any. Candela and lux are taken as W/sr and W/m^2. Throws
+/// Error where the light is not there or of an unknown type.
 std::optional<PunctualLight> import_light(Document& document, int node, const glm::dmat4& to_world);
 
 }  // namespace diptych::gltf

@@ -1,0 +1,150 @@
+// What the import refuses, and how it says so; where files may lie.
+#include "catch.h"
+#include "error.h"
+#include "gltf_fixture.h"
+#include "scene/gltf_import.h"
+
+using namespace diptych;
+using namespace diptych::tests;
+
+namespace {
+
+std::string refusal(const std::filesystem::path& file) {
+    try {
+        load_gltf(file);
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        CHECK(message.find('\n') == std::string::npos);
+        CHECK(message.rfind(file.string() + ": ", 0) == 0);
+        return message;
+    }
+    return "(was loaded)";
+}
+
+std::string refusal_of(const std::string& text) {
+    const TemporaryFolder folder;
+    return refusal(folder.write("scene.gltf", text));
+}
+
+std::string root(const std::string& members) {
+    return R"({"asset":{"version":"2.0"},)" + members + "}";
+}
+
+std::string with_position(int accessor) {
+    return one_mesh(R"("attributes":{"POSITION":)" + std::to_string(accessor) + "}");
+}
+
+}  // namespace
+
+TEST_CASE("files that are not there, or not glTF, are refused", "[gltf]") {
+    const TemporaryFolder folder;
+    CHECK_THAT(refusal(folder.path() / "missing.gltf"), Catch::Contains("no such file"));
+    CHECK_THAT(refusal(folder.path()), Catch::Contains("is a folder"));
+    CHECK_THAT(refusal(folder.write("empty.glb", "")), Catch::Contains("empty"));
+    CHECK_THAT(refusal(folder.write("text.gltf", "not json")), Catch::Contains("JSON"));
+    CHECK_THAT(refusal(folder.write("array.gltf", "[1, 2, 3, 4]")), Catch::Contains("root is not an object"));
+    CHECK_THAT(refusal(folder.write("one.gltf", R"({"asset":{"version":"1.0"}})")), Catch::Contains("asset.version"));
+    CHECK_THAT(refusal(folder.write("cut.glb", "glTF\x02")), Catch::Contains("shorter than its header"));
+    const std::string deep(100000, '[');
+    CHECK_THAT(refusal(folder.write("deep.gltf", R"({"extras":)" + deep)), Catch::Contains("nested deeper"));
+}
+
+TEST_CASE("extensions: required ones that are lacking are named, used ones are warned of once", "[gltf]") {
+    CHECK_THAT(
+        refusal_of(root(
+            R"("extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"])")),
+        Catch::Contains("extensionsRequired") && Catch::Contains("KHR_draco_mesh_compression"));
+    const TemporaryFolder folder;
+    const Scene scene =
+        load_gltf(folder.write("used.gltf", root(R"("extensionsUsed":["A_thing","A_thing","KHR_materials_ior"])")));
+    REQUIRE(scene.warnings.size() == 2);
+    CHECK_THAT(scene.warnings[0], Catch::Contains("A_thing"));
+    CHECK_THAT(scene.warnings[1], Catch::Contains("no triangles"));
+}
+
+TEST_CASE("data outside its buffer is refused, and the message says where", "[gltf]") {
+    GltfBuilder builder;
+    const int points = builder.triangle();
+    const int too_long = builder.accessor_of(R"("bufferView":0)", 5126, "VEC3", 4);
+    const int shifted = builder.accessor_of(R"("bufferView":0,"byteOffset":4)", 5126, "VEC3", 3);
+    const int huge = builder.accessor_of(R"("bufferView":0,"byteOffset":18446744073709551600)", 5126, "VEC3", 3);
+    const int no_view = builder.accessor_of(R"("bufferView":77)", 5126, "VEC3", 3);
+    const int indices = builder.accessor(raw<std::uint16_t>({0, 1, 3}), 5123, "SCALAR", 3);
+    const int pairs = builder.floats({0, 0, 0, 0, 0, 0}, "VEC2", 3);
+    const int implied = builder.accessor_of("", 5126, "VEC3", 2000000000);
+    for (const int bad : {too_long, shifted, huge}) {
+        CHECK_THAT(refusal_of(builder.text(with_position(bad))),
+                   Catch::Contains("meshes[0] (m).primitives[0].attributes.POSITION") &&
+                       Catch::Contains("end past bufferViews[0]"));
+    }
+    CHECK_THAT(refusal_of(builder.text(with_position(no_view))), Catch::Contains("bufferViews[77]"));
+    CHECK_THAT(refusal_of(builder.text(with_position(1234))), Catch::Contains("accessors[1234]"));
+    CHECK_THAT(refusal_of(builder.text(with_position(pairs))), Catch::Contains("2 components where 3"));
+    CHECK_THAT(refusal_of(builder.text(with_position(implied))), Catch::Contains("no buffer view"));
+    CHECK_THAT(refusal_of(builder.text(one_mesh(R"("attributes":{"POSITION":)" + std::to_string(points) +
+                                                R"(},"indices":)" + std::to_string(indices)))),
+               Catch::Contains("primitives[0].indices: index 3 at 2") && Catch::Contains("3 vertices"));
+    CHECK_THAT(refusal_of(builder.text(one_mesh(R"("attributes":{"POSITION":)" + std::to_string(points) +
+                                                R"(,"NORMAL":)" + std::to_string(points) + R"(},"material":5)"))),
+               Catch::Contains("materials[5]"));
+}
+
+TEST_CASE("buffers that are missing or too short are refused", "[gltf]") {
+    CHECK_THAT(refusal_of(root(R"("buffers":[{"byteLength":4,"uri":"gone.bin"}])")),
+               Catch::Contains("buffers[0].uri") && Catch::Contains("gone.bin") && Catch::Contains("no such file"));
+    CHECK_THAT(refusal_of(root(R"("buffers":[{"byteLength":4,"uri":"data:;base64,AAAA"}])")),
+               Catch::Contains("buffers[0]: byteLength is 4, but there are 3"));
+    CHECK_THAT(refusal_of(root(R"("buffers":[{"byteLength":4,"uri":"data:;base64,A*AA"}])")),
+               Catch::Contains("base64"));
+}
+
+TEST_CASE("node hierarchies that are no trees are refused", "[gltf]") {
+    CHECK_THAT(refusal_of(root(R"("nodes":[{"children":[1]},{"children":[0]}])")), Catch::Contains("own ancestor"));
+    CHECK_THAT(refusal_of(root(R"("nodes":[{"children":[2]},{"children":[2]},{}])")), Catch::Contains("two parents"));
+    CHECK_THAT(refusal_of(root(R"("nodes":[{"children":[9]}])")), Catch::Contains("nodes[9]"));
+    CHECK_THAT(refusal_of(root(R"("nodes":[{"mesh":0}])")), Catch::Contains("meshes[0]"));
+    CHECK_THAT(refusal_of(root(R"("nodes":[{"scale":[1e300,1,1],"children":[1]},{"scale":[1e300,1,1]}])")),
+               Catch::Contains("nodes[1]") && Catch::Contains("not finite"));
+    CHECK_THAT(refusal_of(root(
+                   R"("nodes":[{"camera":0}],"cameras":[{"type":"perspective","perspective":{"yfov":4,"znear":1}}])")),
+               Catch::Contains("cameras[0].perspective.yfov"));
+}
+
+TEST_CASE("a chain of many nodes does not exhaust the stack", "[gltf]") {
+    std::string nodes;
+    const int count = 100000;
+    for (int i = 0; i < count; ++i) {
+        nodes += i + 1 < count ? R"({"children":[)" + std::to_string(i + 1) + "]}," : "{}";
+    }
+    const TemporaryFolder folder;
+    CHECK_NOTHROW(load_gltf(folder.write("chain.gltf", root(R"("nodes":[)" + nodes + "]"))));
+}
+
+TEST_CASE("files are found by names with spaces, escapes and UTF-8", "[gltf]") {
+    const TemporaryFolder folder;
+    const std::string bytes = raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    folder.write("a b.bin", bytes);
+    folder.write("ü%20.bin", bytes);
+    for (const char* uri : {"a b.bin", "a%20b.bin", "ü%2520.bin", "%C3%BC%2520.bin", "./a%20b.bin"}) {
+        INFO(uri);
+        const Scene scene = load_gltf(folder.write(
+            "sc ene ü.gltf",
+            root(one_mesh(R"("attributes":{"POSITION":0})") + R"(,"buffers":[{"byteLength":36,"uri":")" + uri +
+                 R"("}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+                 R"("componentType":5126,"type":"VEC3","count":3}])")));
+        CHECK(scene.instances.size() == 1);
+    }
+}
+
+TEST_CASE("an image that is missing or broken is refused only where it is used", "[gltf]") {
+    const std::string images = R"("textures":[{"source":0}],"images":[{"uri":"gone.png"}])";
+    CHECK_THAT(refusal_of(root(images + R"(,"materials":[{"emissiveTexture":{"index":0}}])")),
+               Catch::Contains("images[0] (gone.png)") && Catch::Contains("no such file"));
+    const TemporaryFolder folder;
+    const Scene scene =
+        load_gltf(folder.write("occluded.gltf", root(images + R"(,"materials":[{"occlusionTexture":{"index":0}}])")));
+    CHECK(scene.images.empty());
+    CHECK_THAT(refusal_of(root(R"("textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,iVBORw0KGgo="}],)"
+                               R"("materials":[{"emissiveTexture":{"index":0}}])")),
+               Catch::Contains("images[0]") && Catch::Contains("cannot be decoded"));
+}
