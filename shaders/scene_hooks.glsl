@@ -1,0 +1,65 @@
+// The scene as a kernel reads it (hooks.md): constants, feature(bit) and load_NAME(index).
+#ifndef SCENE_HOOKS_GLSL
+#define SCENE_HOOKS_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+
+#include "dispatch.h"
+#include "film_pixel.h"
+#include "scene_buffers.h"
+#include "scene_features.h"
+
+layout(constant_id = 0) const uint FEATURES = 0xffffffffu;
+
+uint features() { return FEATURES; }
+bool feature(uint bit) { return (FEATURES & bit) != 0u; }
+
+// An element's alignment, up to the 16 bytes of the widest load, divides its size.
+#define ALIGN_uint 4
+#define ALIGN_float 4
+#define ALIGN_vec2 8
+#define ALIGN_vec3 4
+#define ALIGN_uvec3 4
+#define ALIGN_vec4 16
+#define ALIGN_Instance 4
+#define ALIGN_Geometry 16
+#define ALIGN_Material 4
+#define ALIGN_TextureSlot 8
+#define ALIGN_EmissiveTriangle 16
+#define ALIGN_PunctualLight 4
+#define ALIGN_AliasEntry 8
+
+#define DECLARE_REFERENCE(Type, name)                                                                    \
+    layout(buffer_reference, scalar, buffer_reference_align = ALIGN_##Type) readonly buffer name##_buffer { \
+        Type data[];                                                                                     \
+    };
+SCENE_BUFFERS(DECLARE_REFERENCE)
+#undef DECLARE_REFERENCE
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer film_pixels_buffer { FilmPixel data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer film_moments_buffer { FilmMoments data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer film_first_hits_buffer { FilmFirstHit data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer recorded_rays_buffer { RecordedRay data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ray_counters_buffer { RayCounters data; };
+
+// Mirrored by vk_backend/scene_addresses.h.
+layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
+#define DECLARE_ADDRESS(Type, name) name##_buffer name;
+    SCENE_BUFFERS(DECLARE_ADDRESS)
+#undef DECLARE_ADDRESS
+    film_pixels_buffer film_pixels;
+    film_moments_buffer film_moments;
+    film_first_hits_buffer film_first_hits;
+    recorded_rays_buffer recorded_rays;
+    ray_counters_buffer ray_counters;
+} addresses;
+
+layout(set = 0, binding = 2, scalar) uniform Constants { RenderConstants constants; };
+
+#define DEFINE_LOAD(Type, name) \
+    Type load_##name(uint index) { return addresses.name.data[index]; }
+SCENE_BUFFERS(DEFINE_LOAD)
+#undef DEFINE_LOAD
+
+#endif

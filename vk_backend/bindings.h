@@ -1,0 +1,21 @@
+// The descriptor set that every pipeline reads: structure, addresses, constants.
+#pragma once
+
+#include "buffer.h"
+#include "pipeline.h"
+#include "scene_addresses.h"
+#include "scene_types.h"
+
+namespace diptych {
+
+struct Bindings {
+    Buffer addresses;
+    Buffer constants;
+    vk::raii::DescriptorPool pool = nullptr;
+    vk::raii::DescriptorSet set = nullptr;
+};
+
+Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::AccelerationStructureKHR structure,
+                       const SceneAddresses& addresses, const shared::RenderConstants& constants);
+
+}  // namespace diptych

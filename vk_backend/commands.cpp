@@ -1,0 +1,48 @@
+#include "commands.h"
+
+#include <cstdint>
+#include <limits>
+
+namespace diptych {
+
+CommandSlot::CommandSlot(const Gpu& gpu)
+    : gpu_(gpu), pool_(gpu.device.createCommandPool({.queueFamilyIndex = gpu.queue_family})),
+      fence_(gpu.device.createFence({})) {
+    commands_ = std::move(gpu.device.allocateCommandBuffers({.commandPool = *pool_, .commandBufferCount = 1}).front());
+}
+
+void CommandSlot::submit(const Record& record) {
+    pool_.reset();
+    commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    record(commands_);
+    commands_.end();
+    const vk::SubmitInfo info{.commandBufferCount = 1, .pCommandBuffers = &*commands_};
+    gpu_.queue.submit(info, *fence_);
+    in_flight_ = true;
+}
+
+void CommandSlot::wait() {
+    if (!in_flight_) {
+        return;
+    }
+    const vk::Result result = gpu_.device.waitForFences(*fence_, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
+    if (result != vk::Result::eSuccess) {
+        throw Error("Vulkan device " + gpu_.name + ": waiting for it gave " + vk::to_string(result));
+    }
+    gpu_.device.resetFences(*fence_);
+    in_flight_ = false;
+}
+
+void run_commands(const Gpu& gpu, const Record& record) {
+    CommandSlot slot(gpu);
+    slot.submit(record);
+    slot.wait();
+}
+
+void full_barrier(const vk::raii::CommandBuffer& commands) {
+    const vk::MemoryBarrier barrier{.srcAccessMask = vk::AccessFlagBits::eMemoryWrite,
+                                    .dstAccessMask = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite};
+    commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands, {}, barrier, {}, {});
+}
+
+}  // namespace diptych

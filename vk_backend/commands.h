@@ -1,0 +1,37 @@
+// Recording and submitting commands.
+#pragma once
+
+#include <functional>
+
+#include "gpu.h"
+
+namespace diptych {
+
+using Record = std::function<void(const vk::raii::CommandBuffer&)>;
+
+/// A command buffer with a fence, used again and again.
+class CommandSlot {
+public:
+    explicit CommandSlot(const Gpu& gpu);
+
+    /// Records and submits. The slot must not be in flight.
+    void submit(const Record& record);
+    /// Waits for what was submitted, if anything.
+    void wait();
+    bool in_flight() const { return in_flight_; }
+
+private:
+    const Gpu& gpu_;
+    vk::raii::CommandPool pool_;
+    vk::raii::CommandBuffer commands_ = nullptr;
+    vk::raii::Fence fence_;
+    bool in_flight_ = false;
+};
+
+/// Records, submits, waits.
+void run_commands(const Gpu& gpu, const Record& record);
+
+/// Makes everything before it visible to everything after it: for set-up work, where finer barriers would gain nothing.
+void full_barrier(const vk::raii::CommandBuffer& commands);
+
+}  // namespace diptych

@@ -1,0 +1,81 @@
+#include "film_memory.h"
+
+#include <cstring>
+
+#include "commands.h"
+#include "scene_features.h"
+
+namespace diptych {
+namespace {
+
+using Usage = vk::BufferUsageFlagBits;
+
+template <typename T>
+Buffer layer(const Gpu& gpu, std::uint64_t count) {
+    return make_buffer(gpu, "the film", count * sizeof(T),
+                       Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferSrc | Usage::eTransferDst,
+                       MemoryKind::device);
+}
+
+template <typename T>
+std::vector<T> read_layer(const Gpu& gpu, const Buffer& buffer) {
+    std::vector<T> elements(buffer.size / sizeof(T));
+    if (elements.empty()) {
+        return elements;
+    }
+    const Buffer host = make_buffer(gpu, "reading the film", buffer.size, Usage::eTransferDst, MemoryKind::readback);
+    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
+        full_barrier(commands);
+        commands.copyBuffer(*buffer.handle, *host.handle, vk::BufferCopy{.size = buffer.size});
+        const vk::MemoryBarrier to_host{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
+                                        .dstAccessMask = vk::AccessFlagBits::eHostRead};
+        commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, to_host, {}, {});
+    });
+    std::memcpy(elements.data(), host.mapped, buffer.size);
+    return elements;
+}
+
+}  // namespace
+
+FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t features) {
+    const std::uint64_t count = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    FilmMemory film;
+    film.width = width;
+    film.height = height;
+    film.pixels = layer<shared::FilmPixel>(gpu, count);
+    if ((features & shared::FEATURE_STANDARD_ERROR) != 0) {
+        film.moments = layer<shared::FilmMoments>(gpu, count);
+    }
+    if ((features & shared::FEATURE_FIRST_HIT_LAYERS) != 0) {
+        film.first_hits = layer<shared::FilmFirstHit>(gpu, count);
+    }
+    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
+        for (const Buffer* buffer : {&film.pixels, &film.moments, &film.first_hits}) {
+            if (buffer->size > 0) {
+                commands.fillBuffer(*buffer->handle, 0, VK_WHOLE_SIZE, 0);
+            }
+        }
+        full_barrier(commands);
+    });
+    return film;
+}
+
+void enter_film(SceneAddresses& addresses, const FilmMemory& film) {
+    addresses.film_pixels = film.pixels.address;
+    addresses.film_moments = film.moments.address;
+    addresses.film_first_hits = film.first_hits.address;
+}
+
+Film read_film(const Gpu& gpu, const FilmMemory& film) {
+    Film host;
+    host.width = film.width;
+    host.height = film.height;
+    host.pixels = read_layer<shared::FilmPixel>(gpu, film.pixels);
+    host.moments = read_layer<shared::FilmMoments>(gpu, film.moments);
+    host.first_hits = read_layer<shared::FilmFirstHit>(gpu, film.first_hits);
+    return host;
+}
+
+std::uint64_t film_bytes(const FilmMemory& film) { return film.pixels.size + film.moments.size + film.first_hits.size; }
+
+}  // namespace diptych

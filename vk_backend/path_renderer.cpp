@@ -1,0 +1,104 @@
+#include "path_renderer.h"
+
+#include <array>
+#include <chrono>
+
+#include "shader_binaries.h"
+
+namespace diptych {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+PipelineShaders scene_shaders(Spirv ray_generation, bool alpha) {
+    PipelineShaders shaders{.ray_generation = ray_generation,
+                            .closest_hit = shader_binary("closest.rchit"),
+                            .closest_miss = shader_binary("closest.rmiss"),
+                            .shadow_miss = shader_binary("shadow.rmiss"),
+                            .closest_any_hit = {},
+                            .shadow_any_hit = {}};
+    if (alpha) {
+        shaders.closest_any_hit = shader_binary("closest.rahit");
+        shaders.shadow_any_hit = shader_binary("shadow.rahit");
+    }
+    return shaders;
+}
+
+void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, const PipelineLayout& layout,
+                     const Bindings& bindings, const shared::Dispatch& dispatch, std::uint32_t width, std::uint32_t height) {
+    commands.bindPipeline(vk::PipelineBindPoint::eRayTracingKHR, *pipeline.pipeline);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eRayTracingKHR, *layout.layout, 0, *bindings.set, {});
+    commands.pushConstants<shared::Dispatch>(*layout.layout, vk::ShaderStageFlagBits::eRaygenKHR, 0, dispatch);
+    trace(commands, pipeline, width, height);
+}
+
+PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes)
+    : gpu_(std::make_unique<Gpu>(open_gpu(options.device, validation_wanted(options.validation)))), constants_(packed.constants),
+      features_(packed.features), changes_(changes) {
+    const auto start = std::chrono::steady_clock::now();
+    in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
+    in_context("building acceleration structures", [&] {
+        bottom_ = build_bottom_levels(*gpu_, packed, scene_);
+        top_ = build_top_level(*gpu_, packed, bottom_);
+    });
+    const auto size = glm::ivec2(constants_.size);
+    in_context("making the film", [&] { film_ = make_film(*gpu_, size.x, size.y, features_); });
+    costs_.build_seconds = seconds_since(start);
+    costs_.bytes = scene_bytes(scene_) + bottom_.bytes + top_.storage.size + film_bytes(film_);
+
+    const auto compile_start = std::chrono::steady_clock::now();
+    in_context("setting up pipelines", [&] {
+        layout_ = make_pipeline_layout(*gpu_);
+        path_ = compile(changes.ray_generation.empty() ? shader_binary("path.rgen") : changes.ray_generation, false);
+        bindings_ = make_bindings(*gpu_, layout_, *top_.structure, addresses(film_), constants_);
+        queue_ = std::make_unique<TimedQueue>(*gpu_, [this](std::uint64_t work, double seconds) { speed_.learn(work, seconds); });
+    });
+    costs_.compile_seconds = seconds_since(compile_start);
+}
+
+SceneAddresses PathRenderer::addresses(const FilmMemory& film) const {
+    SceneAddresses all = scene_addresses(scene_);
+    enter_film(all, film);
+    return all;
+}
+
+TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) const {
+    const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
+    const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
+    const bool alpha = (features_ & shared::FEATURE_ALPHA) != 0;
+    TracePipeline pipeline = make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha), features_, record_rays);
+    save_pipeline_cache(cache, cache_path);
+    return pipeline;
+}
+
+void PathRenderer::render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
+    in_context("rendering", [&] {
+        SliceCursor cursor({0, 0, constants_.size.x, constants_.size.y}, first, count);
+        while (!cursor.done() && !cancel.load()) {
+            const std::uint64_t budget = changes_.slice_budget > 0 ? changes_.slice_budget : speed_.budget();
+            const Slice slice = cursor.next(budget, gpu_->ray_tracing.maxRayDispatchInvocationCount);
+            shared::Dispatch dispatch{};
+            dispatch.origin = {slice.region.x, slice.region.y};
+            dispatch.first_sample = slice.first_sample;
+            dispatch.sample_count = slice.sample_count;
+            queue_->submit(slice.work(), [&](const vk::raii::CommandBuffer& commands) {
+                record_dispatch(commands, path_, layout_, bindings_, dispatch, slice.region.width, slice.region.height);
+            });
+        }
+        queue_->drain();
+    });
+}
+
+Film PathRenderer::film() const {
+    return in_context("reading the film", [&] { return read_film(*gpu_, film_); });
+}
+
+std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options) {
+    return std::make_unique<PathRenderer>(packed, options);
+}
+
+}  // namespace diptych

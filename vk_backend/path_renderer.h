@@ -1,0 +1,66 @@
+// The Renderer over one device; made by make_vulkan_renderer, and directly by tests.
+#pragma once
+
+#include <memory>
+
+#include "../shaders/dispatch.h"
+#include "acceleration.h"
+#include "bindings.h"
+#include "film_memory.h"
+#include "pipeline.h"
+#include "pipeline_cache.h"
+#include "scene_memory.h"
+#include "slices.h"
+#include "timed_queue.h"
+#include "vulkan_renderer.h"
+
+namespace diptych {
+
+/// What tests change.
+struct PathRendererOptions {
+    Spirv ray_generation;            // instead of path.rgen
+    std::uint64_t slice_budget = 0;  // pixel samples a dispatch, whatever the measured speed
+};
+
+class PathRenderer final : public Renderer {
+public:
+    PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes = {});
+
+    std::string backend() const override { return "vulkan"; }
+    std::string device() const override { return gpu_->name; }
+    RendererCosts costs() const override { return costs_; }
+    void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override;
+    double device_seconds() const override { return queue_->seconds(); }
+    Film film() const override;
+    TraversalBench bench_traversal(std::uint32_t samples) override;
+
+    const BottomLevels& bottom_levels() const { return bottom_; }
+
+private:
+    TracePipeline compile(Spirv ray_generation, bool record_rays) const;
+    SceneAddresses addresses(const FilmMemory& film) const;
+
+    std::unique_ptr<Gpu> gpu_;
+    shared::RenderConstants constants_;
+    std::uint32_t features_;
+    PathRendererOptions changes_;
+    SceneMemory scene_;
+    BottomLevels bottom_;
+    TopLevel top_;
+    FilmMemory film_;
+    PipelineLayout layout_;
+    TracePipeline path_;
+    Bindings bindings_;
+    SpeedEstimate speed_;
+    std::unique_ptr<TimedQueue> queue_;
+    RendererCosts costs_;
+};
+
+/// Shaders of shaders/ under a ray generation shader; any-hit shaders only where `alpha`.
+PipelineShaders scene_shaders(Spirv ray_generation, bool alpha);
+
+/// Records the commands of one dispatch.
+void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, const PipelineLayout& layout,
+                     const Bindings& bindings, const shared::Dispatch& dispatch, std::uint32_t width, std::uint32_t height);
+
+}  // namespace diptych

@@ -1,0 +1,46 @@
+// Ray-tracing pipelines with their shader binding tables.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "buffer.h"
+
+namespace diptych {
+
+using Spirv = std::span<const std::uint32_t>;
+
+/// What every pipeline binds: structure, addresses, constants; a Dispatch as push constants.
+struct PipelineLayout {
+    vk::raii::DescriptorSetLayout set = nullptr;
+    vk::raii::PipelineLayout layout = nullptr;
+};
+
+PipelineLayout make_pipeline_layout(const Gpu& gpu);
+
+/// The shaders of a pipeline; an empty any-hit is left out.
+struct PipelineShaders {
+    Spirv ray_generation;
+    Spirv closest_hit;
+    Spirv closest_miss;
+    Spirv shadow_miss;
+    Spirv closest_any_hit;
+    Spirv shadow_any_hit;
+};
+
+struct TracePipeline {
+    vk::raii::Pipeline pipeline = nullptr;
+    Buffer table;
+    vk::StridedDeviceAddressRegionKHR ray_generation;
+    vk::StridedDeviceAddressRegionKHR miss;
+    vk::StridedDeviceAddressRegionKHR hit;
+};
+
+/// `features` and `record_rays` are the specialization constants 0 and 1.
+TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const vk::raii::PipelineCache& cache,
+                            const PipelineShaders& shaders, std::uint32_t features, bool record_rays);
+
+/// Traces width x height rays.
+void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::uint32_t width, std::uint32_t height);
+
+}  // namespace diptych

@@ -1,0 +1,22 @@
+// Where the shaders find everything: the uniform block SceneAddresses of shaders/scene_hooks.glsl.
+#pragma once
+
+#include <cstdint>
+
+#include "scene_buffers.h"
+
+namespace diptych {
+
+/// Device addresses; 0 where there is no such buffer.
+struct SceneAddresses {
+#define DECLARE_ADDRESS(Type, name) std::uint64_t name = 0;
+    SCENE_BUFFERS(DECLARE_ADDRESS)
+#undef DECLARE_ADDRESS
+    std::uint64_t film_pixels = 0;
+    std::uint64_t film_moments = 0;
+    std::uint64_t film_first_hits = 0;
+    std::uint64_t recorded_rays = 0;
+    std::uint64_t ray_counters = 0;
+};
+
+}  // namespace diptych

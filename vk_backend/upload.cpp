@@ -1,0 +1,41 @@
+#include "upload.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "commands.h"
+
+namespace diptych {
+
+Uploader::Uploader(const Gpu& gpu, std::uint64_t capacity)
+    : gpu_(gpu),
+      staging_(make_buffer(gpu, "staging", capacity, vk::BufferUsageFlagBits::eTransferSrc, MemoryKind::upload)) {}
+
+void Uploader::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
+    std::uint64_t done = 0;
+    while (done < bytes.size()) {
+        if (used_ == staging_.size) {
+            finish();
+        }
+        const std::uint64_t count = std::min<std::uint64_t>(bytes.size() - done, staging_.size - used_);
+        std::memcpy(static_cast<std::byte*>(staging_.mapped) + used_, bytes.data() + done, count);
+        copies_.push_back({*buffer.handle, {.srcOffset = used_, .dstOffset = done, .size = count}});
+        used_ += count;
+        done += count;
+    }
+}
+
+void Uploader::finish() {
+    if (!copies_.empty()) {
+        run_commands(gpu_, [&](const vk::raii::CommandBuffer& commands) {
+            for (const Copy& copy : copies_) {
+                commands.copyBuffer(*staging_.handle, copy.target, copy.region);
+            }
+            full_barrier(commands);
+        });
+    }
+    copies_.clear();
+    used_ = 0;
+}
+
+}  // namespace diptych

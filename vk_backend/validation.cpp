@@ -1,0 +1,69 @@
+#include "validation.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <string_view>
+
+namespace diptych {
+namespace {
+
+constexpr std::size_t kept_messages = 100;
+
+struct Log {
+    std::mutex mutex;
+    std::vector<std::string> messages;
+    std::uint64_t count = 0;
+};
+
+Log& log() {
+    static Log instance;
+    return instance;
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                       const VkDebugUtilsMessengerCallbackDataEXT* data, void*) {
+    const std::lock_guard lock(log().mutex);
+    ++log().count;
+    if (log().messages.size() < kept_messages) {
+        const std::string id = data->pMessageIdName != nullptr ? data->pMessageIdName : "";
+        log().messages.push_back(id + ": " + data->pMessage);
+        std::fprintf(stderr, "validation: %s\n", log().messages.back().c_str());
+    }
+    return VK_FALSE;
+}
+
+}  // namespace
+
+std::vector<std::string> validation_messages() {
+    const std::lock_guard lock(log().mutex);
+    return log().messages;
+}
+
+std::uint64_t validation_message_count() {
+    const std::lock_guard lock(log().mutex);
+    return log().count;
+}
+
+void clear_validation_messages() {
+    const std::lock_guard lock(log().mutex);
+    log().messages.clear();
+    log().count = 0;
+}
+
+bool validation_wanted(bool option) {
+    const char* variable = std::getenv("DIPTYCH_VALIDATION");
+    return option || (variable != nullptr && std::string_view(variable) == "1");
+}
+
+vk::DebugUtilsMessengerCreateInfoEXT validation_messenger() {
+    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+    vk::DebugUtilsMessengerCreateInfoEXT info;
+    info.messageSeverity = Severity::eError | Severity::eWarning;
+    info.messageType = Type::eValidation | Type::ePerformance;
+    info.pfnUserCallback = reinterpret_cast<decltype(info.pfnUserCallback)>(&collect);
+    return info;
+}
+
+}  // namespace diptych

@@ -1,0 +1,24 @@
+// Vulkan-Hpp as this backend uses it: RAII handles, exceptions, no prototypes, our own way to the loader (loader.h).
+#pragma once
+
+#define VULKAN_HPP_ENABLE_DYNAMIC_LOADER_TOOL 0
+#define VULKAN_HPP_NO_STRUCT_CONSTRUCTORS
+#include <vulkan/vulkan_raii.hpp>
+
+#include <string>
+
+#include "error.h"
+
+namespace diptych {
+
+/// Runs `work`; a failing Vulkan call in it becomes an Error that says what was being done.
+template <typename Work>
+auto in_context(const std::string& doing, Work&& work) {
+    try {
+        return work();
+    } catch (const vk::SystemError& error) {
+        throw Error("Vulkan, " + doing + ": " + error.what());
+    }
+}
+
+}  // namespace diptych

@@ -1,0 +1,24 @@
+// The right panel: rendering on a Vulkan device with ray-tracing pipelines.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "devices.h"
+#include "pack/packed_scene.h"
+#include "render/renderer.h"
+#include "validation.h"
+
+namespace diptych {
+
+struct VulkanOptions {
+    std::string device;       // "" the best, else an index or a part of the name
+    bool validation = false;  // core and synchronisation validation; DIPTYCH_VALIDATION=1 asks for it too
+};
+
+/// Uploads the scene, builds its acceleration structures and compiles its pipeline; `packed` is not needed afterwards. Throws
+/// NoDevice where no device serves, saying what is missing; Error where one fails.
+std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options);
+
+}  // namespace diptych
