@@ -14,7 +14,7 @@ FN float dielectric_f0(float ior) {
     return r * r;
 }
 
-/// Schlick 1994, eq. 24, from f0 at normal incidence to f90 at grazing.
+/// Schlick 1994, from f0 at normal incidence to f90 at grazing.
 FN vec3 fresnel_schlick(vec3 f0, vec3 f90, float cos_theta) {
     float m = clamp(1.0f - cos_theta, 0.0f, 1.0f);
     float m2 = m * m;

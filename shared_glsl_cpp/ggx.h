@@ -32,8 +32,8 @@ FN float ggx_g2(vec3 wo, vec3 wi, float alpha) {
     return 2.0f * wo.z * wi.z / (o + i);
 }
 
-/// A facet normal out of those visible from wo; Dupuy and Benyoub 2023, listing 3. The cap's sine comes from 1 - z,
-/// uncancelled.
+/// A facet normal out of those visible from wo; Dupuy and Benyoub 2023. The cap's sine comes from 1 - z, which
+/// does not cancel.
 FN vec3 sample_ggx_visible_normal(vec3 wo, float alpha, vec2 u) {
     vec3 w = normalize(vec3(wo.x * alpha, wo.y * alpha, wo.z));
     float one_minus_z = u.y * (1.0f + w.z);

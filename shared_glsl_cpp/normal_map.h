@@ -60,14 +60,14 @@ FN MappedNormal make_mapped_normal(vec3 shading_normal, vec3 normal, vec3 mapped
     return m;
 }
 
-/// Probability that what arrives along w meets the mapped facet, not the tangent one; eq. 9.
+/// Probability that what arrives along w meets the mapped facet, not the tangent one.
 FN float mapped_facet_probability(IN(MappedNormal) m, vec3 w) {
     float p = max(dot(w, m.facet), 0.0f);
     float t = max(dot(w, m.tangent), 0.0f) * m.sine;
     return p > 0.0f ? p / (p + t) : 0.0f;
 }
 
-/// Masking of w by the other facet; eq. 11.
+/// Masking of w by the other facet.
 FN float mapped_masking(IN(MappedNormal) m, vec3 w) {
     float p = max(dot(w, m.facet), 0.0f);
     float t = max(dot(w, m.tangent), 0.0f) * m.sine;

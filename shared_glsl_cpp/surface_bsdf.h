@@ -33,8 +33,8 @@ FN BsdfSample bsdf_sample_in_frame(IN(BsdfParameters) p, IN(Frame) frame, vec3 w
     return r;
 }
 
-/// The mapped surface's f cos and pdf, summed over the paths o→p→i, o→p→t→i and o→t→p→i (Schüssler et al. 2017, section
-/// 4).
+/// The mapped surface's f cos and pdf, summed over the paths o→p→i, o→p→t→i and o→t→p→i (Schüssler et
+/// al. 2017).
 FN BsdfValue mapped_eval_pdf(IN(BsdfParameters) p, IN(MappedNormal) m, vec3 wo, vec3 wi, uint features) {
     BsdfValue sum;
     sum.value = vec3(0.0f, 0.0f, 0.0f);
