@@ -3,9 +3,7 @@
 
 #if DIPTYCH_CATCH_VERSION >= 3
 #include <catch2/catch_all.hpp>
-namespace Catch {
 using Catch::Approx;
-}
 #else
 #include <catch2/catch.hpp>
 #endif
