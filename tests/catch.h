@@ -1,14 +1,17 @@
 // Catch2 2 or 3 under one name, and a way to say that a test could not run here.
 #pragma once
 
+#include <string>
+
 #if DIPTYCH_CATCH_VERSION >= 3
 #include <catch2/catch_all.hpp>
 using Catch::Approx;
+namespace Catch {
+inline auto Contains(const std::string& text) { return Matchers::ContainsSubstring(text); }
+}  // namespace Catch
 #else
 #include <catch2/catch.hpp>
 #endif
-
-#include <string>
 
 namespace diptych::tests {
 
