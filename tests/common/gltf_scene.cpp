@@ -53,7 +53,8 @@ TEST_CASE("node transforms compose in double, and instances share their mesh", "
     GltfBuilder builder;
     const double s = std::sqrt(0.5);
     const Scene scene = load_text(builder.text(
-        R"("scene":1,"scenes":[{"nodes":[]},{"nodes":[0]}],"nodes":[{"name":"root","translation":[100000000.125,0,0],"children":[1]},)"
+        R"("scene":1,"scenes":[{"nodes":[]},{"nodes":[0]}],"nodes":[)"
+        R"({"name":"root","translation":[100000000.125,0,0],"children":[1]},)"
         R"({"rotation":[0,0,)" +
         std::to_string(s) + "," + std::to_string(s) +
         R"(],"scale":[2,3,4],"children":[2,3]},)"
@@ -104,7 +105,8 @@ TEST_CASE("cameras are rigid, whatever their nodes scale", "[gltf]") {
 
 TEST_CASE("punctual lights keep their units, colours and cones", "[gltf]") {
     const Scene scene = load_text(
-        R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)"
+        R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],)"
+        R"("extensions":{"KHR_lights_punctual":{"lights":[)"
         R"({"type":"spot","color":[1,0.5,0],"intensity":10,"spot":{"innerConeAngle":0.25,"outerConeAngle":0.5}},)"
         R"({"type":"directional","intensity":3},{"type":"spot","spot":{}}]}},"nodes":[)"
         R"({"translation":[0,4,0],"extensions":{"KHR_lights_punctual":{"light":0}}},)"
@@ -124,10 +126,13 @@ TEST_CASE("punctual lights keep their units, colours and cones", "[gltf]") {
 
 TEST_CASE("material factors and extensions arrive", "[gltf]") {
     const Scene scene = load_material(
-        R"({"name":"paint","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":0.25},)"
-        R"("emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.75,"doubleSided":true,"normalTexture":{"index":0,"scale":2},)"
+        R"({"name":"paint","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],)"
+        R"("metallicFactor":0.5,"roughnessFactor":0.25},)"
+        R"("emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.75,"doubleSided":true,)"
+        R"("normalTexture":{"index":0,"scale":2},)"
         R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":20},"KHR_materials_ior":{"ior":1.33},)"
-        R"("KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[1,2,3],"specularTexture":{"index":0,"texCoord":1}},)"
+        R"("KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[1,2,3],)"
+        R"("specularTexture":{"index":0,"texCoord":1}},)"
         R"("KHR_materials_unlit":{}}})");
     const Material& m = scene.materials.at(0);
     CHECK(m.name == "paint");
