@@ -67,7 +67,8 @@ std::string failure(const Options& options, const Difference& difference) {
     }
     const double z = largest_z(difference);
     if (options.max_z && !(z <= *options.max_z)) {
-        return fmt::format("|z| {:.3g} exceeds {:.3g}", z, *options.max_z);
+        return std::isnan(z) ? "z is unknown: some standard errors are"
+                             : fmt::format("|z| {:.3g} exceeds {:.3g}", z, *options.max_z);
     }
     if (options.max_relmse && !(difference.relmse <= *options.max_relmse)) {
         return fmt::format("relMSE {:.3g} exceeds {:.3g}", difference.relmse, *options.max_relmse);

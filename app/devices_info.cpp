@@ -29,6 +29,13 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
+#if DIPTYCH_VULKAN
+std::string version_text(std::uint32_t version) {
+    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                       VK_API_VERSION_PATCH(version));
+}
+#endif
+
 /// The Vulkan devices; `reason` says why there are none to be had.
 nlohmann::ordered_json vulkan_devices(std::string& reason) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -39,7 +46,7 @@ nlohmann::ordered_json vulkan_devices(std::string& reason) {
                             {"name", device.name},
                             {"type", device.type},
                             {"driver", device.driver},
-                            {"api_version", device.api_version},
+                            {"api_version", version_text(device.api_version)},
                             {"memory", device.memory},
                             {"usable", device.usable},
                             {"lacks", device.lacks}});

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <limits>
 #include <memory>
 
 #include "arguments.h"
@@ -13,6 +10,7 @@
 #include "pack/packed_scene.h"
 #include "render/film.h"
 #include "report.h"
+#include "scene/default_camera.h"
 #include "scene_setup.h"
 
 namespace diptych::app {
@@ -30,11 +28,6 @@ struct Options {
     bool layers = true;
     bool devices = false;
     bool json = false;
-};
-
-struct Bounds {
-    glm::dvec3 least{std::numeric_limits<double>::infinity()};
-    glm::dvec3 most{-std::numeric_limits<double>::infinity()};
 };
 
 struct Counts {
@@ -59,21 +52,6 @@ Counts count_triangles(const Scene& scene) {
         counts.placed_triangles += mesh_triangles(scene.meshes[static_cast<std::size_t>(instance.mesh)]);
     }
     return counts;
-}
-
-/// World space.
-Bounds find_bounds(const Scene& scene) {
-    Bounds bounds;
-    for (const Instance& instance : scene.instances) {
-        for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
-            for (const glm::vec3& position : primitive.positions) {
-                const glm::dvec3 world{instance.object_to_world * glm::dvec4(position, 1)};
-                bounds.least = glm::min(bounds.least, world);
-                bounds.most = glm::max(bounds.most, world);
-            }
-        }
-    }
-    return bounds;
 }
 
 struct BufferSize {
@@ -103,7 +81,7 @@ std::vector<BufferSize> buffer_sizes(const PackedScene& packed, const RenderSett
 
 nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, const RenderSettings& settings) {
     const Counts counts = count_triangles(scene);
-    const Bounds bounds = find_bounds(scene);
+    const Bounds bounds = scene_bounds(scene);
     nlohmann::ordered_json json;
     json["scene"] = scene.name;
     json["triangles"] = counts.triangles;
@@ -120,9 +98,8 @@ nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, con
     for (const Camera& camera : scene.cameras) {
         json["cameras"].push_back(camera.name);
     }
-    if (counts.placed_triangles > 0) {
-        json["bounds"] = {{bounds.least.x, bounds.least.y, bounds.least.z},
-                          {bounds.most.x, bounds.most.y, bounds.most.z}};
+    if (!is_empty(bounds)) {
+        json["bounds"] = {{bounds.lo.x, bounds.lo.y, bounds.lo.z}, {bounds.hi.x, bounds.hi.y, bounds.hi.z}};
     }
     json["width"] = settings.width;
     json["height"] = settings.height;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numbers>
 #include <optional>
+#include <sstream>
 
 #include "error.h"
 #include "pack/features.h"
@@ -36,14 +37,20 @@ std::optional<glm::vec3> parse_color(const std::string& text) {
     return color;
 }
 
-Environment requested_environment(const std::string& text) {
+Environment requested_environment(const std::string& text, std::vector<std::string>& warnings) {
     const std::optional<glm::vec3> color = parse_color(text);
     if (!color) {
         const bool like_numbers = text.find_first_not_of("0123456789+-.,eE ") == std::string::npos;
         if (like_numbers && !std::filesystem::exists(text)) {
             throw Error(fmt::format("--env {}: wants three numbers R,G,B or a file", text));
         }
-        return load_environment(text);
+        std::string lines;
+        const Environment environment = load_environment(text, &lines);
+        std::istringstream stream(lines);
+        for (std::string line; std::getline(stream, line);) {
+            warnings.push_back(line);
+        }
+        return environment;
     }
     for (int channel = 0; channel < 3; ++channel) {
         if (!std::isfinite((*color)[channel]) || (*color)[channel] < 0) {
@@ -58,7 +65,7 @@ Environment requested_environment(const std::string& text) {
 
 void place_environment(Scene& scene, const RenderRequest& request) {
     if (!request.environment.empty()) {
-        scene.environment = requested_environment(request.environment);
+        scene.environment = requested_environment(request.environment, scene.warnings);
     } else if (!has_light(scene)) {
         scene.environment = neutral_sky();
         scene.warnings.push_back(fmt::format("{}: the scene has no light: lit by a neutral sky", scene.name));

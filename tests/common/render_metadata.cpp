@@ -1,0 +1,92 @@
+#include "catch.h"
+
+#include "error.h"
+#include "render/render_metadata.h"
+#include "render/settings_names.h"
+
+using namespace diptych;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+RenderRequest request_of_everything() {
+    RenderRequest request;
+    request.scene = "a scene's.gltf";
+    request.output = "out.exr";
+    request.backend = "vulkan";
+    request.device = "1";
+    request.camera = "Front view";
+    request.environment = "0.1,0.2,0.3";
+    request.environment_scale = 0.1;
+    request.environment_rotation = -30;
+    request.lens_radius = 0.01;
+    request.focus_distance = 2.5;
+    request.exposure = -1.5;
+    request.settings.width = 640;
+    request.settings.height = 480;
+    request.settings.integrator = Integrator::direct;
+    request.settings.brdf = BrdfModel::blinn_phong;
+    request.settings.sampler = SamplerKind::hammersley;
+    request.settings.sample_count = 256;
+    request.settings.mis = MisHeuristic::balance;
+    request.settings.seed = 4294967295U;
+    request.settings.generic = true;
+    return request;
+}
+
+}  // namespace
+
+TEST_CASE("the repeating command holds every setting and survives a shell", "[render]") {
+    const std::string command = repeat_command(request_of_everything(), 77);
+    INFO(command);
+    CHECK(contains(command, "diptych render 'a scene'\\''s.gltf' -o out.exr "));
+    for (const char* part :
+         {"--backend vulkan", "--device 1", "--integrator direct", "--spp 77", "--size 640x480", "--max-depth 8",
+          "--seed 4294967295", "--brdf blinn-phong", "--sampler hammersley", "--sample-count 256", "--mis balance",
+          "--camera 'Front view'", "--env 0.1,0.2,0.3", "--env-scale 0.1", "--env-rotate -30", "--aperture 0.01",
+          "--focus 2.5", "--exposure -1.5", "--tonemap none", "--no-layers", "--generic"}) {
+        INFO(part);
+        CHECK(contains(command, part));
+    }
+}
+
+TEST_CASE("metadata tell how the render went", "[render]") {
+    RenderOutcome outcome;
+    outcome.program = "diptych 1.2.3";
+    outcome.device = "a device";
+    outcome.spp = 77;
+    outcome.interrupted = true;
+    outcome.nonfinite = 3;
+    const auto metadata = render_metadata(request_of_everything(), outcome);
+    CHECK(metadata.at("program") == "diptych 1.2.3");
+    CHECK(metadata.at("device") == "a device");
+    CHECK(metadata.at("spp") == "77");
+    CHECK(metadata.at("seed") == "4294967295");
+    CHECK(metadata.at("interrupted") == "yes");
+    CHECK(metadata.at("uneven") == "no");
+    CHECK(metadata.at("nonfinite") == "3");
+    CHECK(metadata.at("command") == repeat_command(request_of_everything(), 77));
+}
+
+TEST_CASE("names of settings lead back to them, and an unknown one lists the others", "[render]") {
+    for (const Integrator value : {Integrator::brdf, Integrator::direct, Integrator::path}) {
+        CHECK(integrator_from_name(name_of(value)) == value);
+    }
+    for (const BrdfModel value : {BrdfModel::ggx, BrdfModel::blinn_phong}) {
+        CHECK(brdf_from_name(name_of(value)) == value);
+    }
+    for (const SamplerKind value : {SamplerKind::independent, SamplerKind::hammersley, SamplerKind::sobol}) {
+        CHECK(sampler_from_name(name_of(value)) == value);
+    }
+    for (const MisHeuristic value : {MisHeuristic::power, MisHeuristic::balance}) {
+        CHECK(mis_from_name(name_of(value)) == value);
+    }
+    try {
+        sampler_from_name("halton");
+        FAIL("accepted");
+    } catch (const Error& error) {
+        CHECK(contains(error.what(), "--sampler halton"));
+        CHECK(contains(error.what(), "independent, hammersley, sobol"));
+    }
+}
