@@ -1,0 +1,112 @@
+#include "catch.h"
+
+#include <nlohmann/json.hpp>
+
+#include "image/layered_image.h"
+#include "process.h"
+
+using namespace diptych;
+using namespace diptych::tests;
+
+namespace {
+
+std::string render(const TemporaryFolder& folder, const std::string& scene, const std::string& name,
+                   std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", scene, "-o", folder.file(name), "--size", "32"});
+    const ProcessResult result = run_diptych(folder, more);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return folder.file(name);
+}
+
+/// A copy of an EXR with its colour times `factor`, said to have another seed.
+std::string scaled_copy(const TemporaryFolder& folder, const std::string& path, float factor) {
+    LayeredImage image = read_image(path);
+    for (float& value : image.color.data) {
+        value *= factor;
+    }
+    image.metadata["seed"] = "1000";
+    write_exr(folder.file("scaled.exr"), image);
+    return folder.file("scaled.exr");
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("pictures of independent seeds differ by noise, a brighter one by more", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const std::string a = render(folder, scene, "a.exr", {"--spp", "16", "--seed", "1"});
+    const std::string b = render(folder, scene, "b.exr", {"--spp", "16", "--seed", "2"});
+    const std::string figure = folder.file("figure.png");
+    const ProcessResult result = run_diptych(folder, {"compare", a, b, "-o", figure, "--json", "--max-z", "4"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.err.empty());
+    const auto json = nlohmann::json::parse(result.out);
+    CHECK(json.at("mse").get<double>() > 0);
+    CHECK(json.at("relmse").get<double>() > 0);
+    CHECK(json.at("mean_ratio").size() == 3);
+    CHECK(json.at("z_mean").size() == 3);
+    CHECK(json.at("noise") == true);
+    CHECK(json.at("passed") == true);
+    CHECK(contains(json.at("verdict"), "within the noise"));
+    const LayeredImage panels = read_image(figure);
+    CHECK(panels.color.height == 32);
+    CHECK(panels.color.width == 3 * 32 + 2 * 4);
+
+    const std::string brighter = scaled_copy(folder, a, 1.5F);
+    const ProcessResult failed = run_diptych(folder, {"compare", brighter, b, "--json", "--max-z", "4"});
+    CHECK(failed.exit_code == 1);
+    const auto failed_json = nlohmann::json::parse(failed.out);
+    CHECK(failed_json.at("noise") == false);
+    CHECK(failed_json.at("passed") == false);
+    CHECK(contains(failed_json.at("verdict"), "MORE than noise"));
+    CHECK(failed_json.at("mean_ratio")[0].get<double>() == Approx(1.5).epsilon(0.05));
+    CHECK(contains(failed.err, "exceeds 4"));
+    CHECK(run_diptych(folder, {"compare", brighter, b}).exit_code == 0);  // no check was asked for
+}
+
+TEST_CASE("pictures of one seed are told apart from independent ones", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const std::string a = render(folder, scene, "a.exr", {"--spp", "4", "--max-depth", "2"});
+    const std::string b = render(folder, scene, "b.exr", {"--spp", "4", "--max-depth", "3"});
+    const ProcessResult result = run_diptych(folder, {"compare", a, b});
+    CHECK(result.exit_code == 0);
+    CHECK(contains(result.err, "z means nothing"));
+    CHECK(contains(result.out, "same random numbers"));
+    const ProcessResult same = run_diptych(folder, {"compare", a, a});
+    CHECK(contains(same.out, "identical"));
+}
+
+TEST_CASE("relMSE can be a check", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const std::string a = render(folder, scene, "a.exr", {"--spp", "4", "--seed", "1"});
+    const std::string b = render(folder, scene, "b.exr", {"--spp", "4", "--seed", "2"});
+    CHECK(run_diptych(folder, {"compare", a, b, "--max-relmse", "10"}).exit_code == 0);
+    const ProcessResult failed = run_diptych(folder, {"compare", a, b, "--max-relmse", "1e-9"});
+    CHECK(failed.exit_code == 1);
+    CHECK(contains(failed.err, "relMSE"));
+}
+
+TEST_CASE("compare refuses what cannot be compared", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const std::string a = render(folder, scene, "a.exr", {"--spp", "1"});
+    const std::string bare = render(folder, scene, "bare.exr", {"--spp", "1", "--no-layers", "--seed", "3"});
+    const std::string small = render(folder, scene, "small.png", {"--spp", "1"});
+    check_refusal(run_diptych(folder, {"compare", a, folder.file("none.exr")}), 2, {"none.exr"});
+    check_refusal(run_diptych(folder, {"compare", a, a, "-o", folder.file("no/f.png")}), 2, {"no/f.png"});
+    check_refusal(run_diptych(folder, {"compare", a, a, "-o", folder.file("f.exr")}), 2, {"f.exr", ".png"});
+    check_refusal(run_diptych(folder, {"compare", a, bare, "--max-z", "4"}), 2, {"bare.exr", "standard errors"});
+    CHECK(contains(run_diptych(folder, {"compare", a, bare}).out, "cannot be told"));
+    LayeredImage wide;
+    wide.color = make_image(33, 32, 3, 1);
+    write_exr(folder.file("wide.exr"), wide);
+    check_refusal(run_diptych(folder, {"compare", a, folder.file("wide.exr")}), 2, {"wide.exr", "33x32", "32x32"});
+}

@@ -1,0 +1,99 @@
+#include "catch.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "process.h"
+
+using namespace diptych::tests;
+
+namespace {
+
+nlohmann::json info(const TemporaryFolder& folder, const std::string& scene, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"info", scene, "--json"});
+    const ProcessResult result = run_diptych(folder, more);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return nlohmann::json::parse(result.out);
+}
+
+bool has(const nlohmann::json& list, const char* word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+}  // namespace
+
+TEST_CASE("info counts a scene and its bytes", "[app]") {
+    const TemporaryFolder folder;
+    const auto json = info(folder, write_bare_triangle(folder), {"--size", "10x20", "--no-layers"});
+    CHECK(json.at("triangles") == 1);
+    CHECK(json.at("placed_triangles") == 1);
+    CHECK(json.at("instances") == 1);
+    CHECK(json.at("materials") == 1);
+    CHECK(json.at("textures") == 0);
+    CHECK(json.at("lights") == 1);  // the neutral sky
+    CHECK(json.at("bounds") == nlohmann::json::parse("[[0, 0, 0], [1, 1, 0]]"));
+    CHECK(json.at("warnings").size() == 2);
+    CHECK(json.at("buffers").at("positions") == 3 * 12);
+    CHECK(json.at("buffers").at("film") == 10 * 20 * 36);
+    CHECK_FALSE(json.at("buffers").contains("film_moments"));
+    std::uint64_t sum = 0;
+    for (const auto& bytes : json.at("buffers")) {
+        sum += bytes.get<std::uint64_t>();
+    }
+    CHECK(json.at("bytes") == sum);
+}
+
+TEST_CASE("what is needed and what is left out follow the options", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const auto plain = info(folder, scene);
+    CHECK(has(plain.at("features"), "ggx"));
+    CHECK(has(plain.at("left_out"), "blinn-phong"));
+    CHECK(has(plain.at("left_out"), "textures"));
+    CHECK(has(plain.at("left_out"), "environment-map"));
+    const auto phong = info(folder, scene, {"--brdf", "blinn-phong", "--env", "1,1,1", "--integrator", "brdf"});
+    CHECK(has(phong.at("features"), "blinn-phong"));
+    CHECK(has(phong.at("left_out"), "ggx"));
+    CHECK(has(phong.at("features"), "constant-environment"));
+    CHECK(has(phong.at("left_out"), "light-sampling"));
+    const auto generic = info(folder, scene, {"--generic"});
+    CHECK(generic.at("left_out").empty());
+    CHECK(generic.at("features").size() == plain.at("features").size() + plain.at("left_out").size());
+}
+
+TEST_CASE("info lists the devices", "[app]") {
+    const TemporaryFolder folder;
+    const ProcessResult result = run_diptych(folder, {"info", "--devices", "--json"});
+    REQUIRE(result.exit_code == 0);
+    const auto json = nlohmann::json::parse(result.out);
+    CHECK(json.at("cpu").at("threads").get<int>() >= 1);
+    CHECK(json.at("cpu").at("usable") == true);
+    for (const auto& device : json.at("vulkan")) {
+        CHECK(device.at("usable").get<bool>() == device.at("lacks").empty());
+        CHECK_FALSE(device.at("name").get<std::string>().empty());
+    }
+    const ProcessResult text = run_diptych(folder, {"info", "--devices"});
+    CHECK(text.out.find("Embree") != std::string::npos);
+}
+
+TEST_CASE("bench measures every integrator in one run", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const ProcessResult result =
+        run_diptych(folder, {"bench", scene, "--size", "16", "--frames", "5", "--integrators", "brdf,path", "--json"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const auto json = nlohmann::json::parse(result.out);
+    CHECK(json.at("width") == 16);
+    REQUIRE(json.at("integrators").size() == 2);
+    CHECK(json.at("integrators")[0].at("cost_relative_to_brdf") == 1);
+    for (const auto& entry : json.at("integrators")) {
+        for (const char* field : {"milliseconds", "samples_per_second", "rays_per_second", "bare_rays_per_second",
+                                  "share_of_bare", "cost_relative_to_brdf"}) {
+            INFO(field);
+            CHECK(entry.at(field).get<double>() > 0);
+        }
+    }
+    check_refusal(run_diptych(folder, {"bench", scene, "--integrators", "brdf,bdpt"}), 2, {"bdpt"});
+}

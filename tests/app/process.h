@@ -1,0 +1,71 @@
+// The program as a black box.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace diptych::tests {
+
+struct ProcessResult {
+    int exit_code = -1;  // 128 + the signal where one killed it
+    std::string out;
+    std::string err;
+};
+
+/// A folder that goes when the test does.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// A run of the program that goes on beside the test.
+class Process {
+public:
+    /// `environment` holds NAME=VALUE entries on top of the test's own; stdout and stderr go to files in the folder.
+    Process(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+            const std::vector<std::string>& environment = {});
+    ~Process();
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    /// Waits until stderr holds `text`; false after `seconds` or when the program ended without it.
+    bool wait_for_error_text(const std::string& text, double seconds);
+    void send(int signal);
+    ProcessResult finish();
+
+private:
+    bool ended();
+
+    std::filesystem::path out_;
+    std::filesystem::path err_;
+    int child_ = -1;
+    int status_ = 0;
+    bool reaped_ = false;
+};
+
+ProcessResult run_diptych(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                          const std::vector<std::string>& environment = {});
+
+/// `diptych generate NAME` into the folder; the path of the .glb.
+std::string generate_scene(const TemporaryFolder& folder, const std::string& name);
+
+/// A .gltf of one grey triangle in the plane z = 0: neither light nor camera.
+std::string write_bare_triangle(const TemporaryFolder& folder);
+
+std::string file_text(const std::filesystem::path& path);
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+/// The refusal that a user is owed: exit code, nothing on stdout, one line on stderr that holds every one of the parts.
+void check_refusal(const ProcessResult& result, int exit_code, const std::vector<std::string>& parts);
+
+}  // namespace diptych::tests

@@ -1,0 +1,187 @@
+#include "catch.h"
+
+#include <cmath>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "image/layered_image.h"
+#include "process.h"
+
+using namespace diptych;
+using namespace diptych::tests;
+
+namespace {
+
+ProcessResult render(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
+                     const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render", scene, "-o", folder.file(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProcessResult result = run_diptych(folder, arguments);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return result;
+}
+
+LayeredImage rendered(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
+                      const std::vector<std::string>& more) {
+    render(folder, scene, output, more);
+    return read_image(folder.file(output));
+}
+
+/// The words of a command line without quotes in it.
+std::vector<std::string> words_of(const std::string& command) {
+    std::istringstream stream(command);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) {
+        words.push_back(word);
+    }
+    return words;
+}
+
+}  // namespace
+
+TEST_CASE("render --json has the fields that scripts rely on", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const ProcessResult result =
+        render(folder, scene, "out.exr", {"--spp", "4", "--size", "24x16", "--integrator", "direct", "--json"});
+    const auto json = nlohmann::json::parse(result.out);
+    CHECK(json.at("backend") == "cpu");
+    CHECK_FALSE(json.at("device").get<std::string>().empty());
+    CHECK(json.at("integrator") == "direct");
+    CHECK(json.at("width") == 24);
+    CHECK(json.at("height") == 16);
+    CHECK(json.at("spp") == 4);
+    CHECK(json.at("seconds").get<double>() > 0);
+    CHECK(json.at("rays").get<double>() >= 24 * 16 * 4);
+    CHECK(json.at("nonfinite") == 0);
+    CHECK(json.at("output") == folder.file("out.exr"));
+    CHECK(json.at("interrupted") == false);
+    CHECK(json.at("build_seconds").get<double>() >= 0);
+    CHECK(json.at("compile_seconds").get<double>() >= 0);
+    CHECK(json.at("device_seconds").get<double>() > 0);
+    CHECK(json.at("bytes").get<double>() > 0);
+    CHECK(json.at("features").size() > 0);
+    CHECK(json.at("samples_per_second").get<double>() > 0);
+    CHECK(json.at("rays_per_second").get<double>() > 0);
+}
+
+TEST_CASE("the EXR's stored command repeats its picture to the bit", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const std::string sampler = GENERATE("sobol", "hammersley");
+    const LayeredImage first =
+        rendered(folder, scene, "out.exr",
+                 {"--spp",       "3",           "--size",      "20",   "--seed",  "9",       "--sampler", sampler,
+                  "--brdf",      "blinn-phong", "--max-depth", "3",    "--mis",   "balance", "--env",     "0.1,0.2,0.3",
+                  "--env-scale", "0.7",         "--aperture",  "0.01", "--focus", "1"});
+    const std::string command = first.metadata.at("command");
+    std::vector<std::string> words = words_of(command);
+    REQUIRE(words.at(0) == "diptych");
+    words.erase(words.begin());
+    std::filesystem::remove(folder.file("out.exr"));
+    const ProcessResult again = run_diptych(folder, words);
+    INFO(command << "\n" << again.err);
+    REQUIRE(again.exit_code == 0);
+    const LayeredImage second = read_image(folder.file("out.exr"));
+    CHECK(second.color.data == first.color.data);
+    CHECK(second.standard_error->data == first.standard_error->data);
+    CHECK(second.metadata.at("command") == command);
+    CHECK(first.metadata.at("seed") == "9");
+    CHECK(first.metadata.at("spp") == "3");
+    CHECK(first.metadata.at("backend") == "cpu");
+    CHECK(first.metadata.at("program").find("commit") != std::string::npos);
+}
+
+TEST_CASE("a seed gives one picture, whatever the threads; another seed another", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const std::vector<std::string> common = {"--spp", "4", "--size", "40", "--seed"};
+    const auto with = [&](const std::string& seed, const std::string& threads) {
+        std::vector<std::string> more = common;
+        more.insert(more.end(), {seed, "--threads", threads});
+        return rendered(folder, scene, "out.exr", more);
+    };
+    const LayeredImage one = with("5", "1");
+    const LayeredImage two = with("5", "2");
+    CHECK(one.color.data == two.color.data);
+    CHECK(one.standard_error->data == two.standard_error->data);
+    CHECK(one.albedo->data == two.albedo->data);
+    CHECK(with("6", "2").color.data != two.color.data);
+}
+
+TEST_CASE("EXR has the layers, unless told otherwise; PNG and HDR have the picture", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const LayeredImage full = rendered(folder, scene, "full.exr", {"--spp", "2", "--size", "16"});
+    CHECK(full.standard_error);
+    CHECK(full.albedo);
+    CHECK(full.normal);
+    CHECK(full.depth);
+    const LayeredImage bare = rendered(folder, scene, "bare.exr", {"--spp", "2", "--size", "16", "--no-layers"});
+    CHECK_FALSE(bare.standard_error);
+    CHECK_FALSE(bare.depth);
+    CHECK(bare.color.data == full.color.data);
+    const LayeredImage dark = rendered(folder, scene, "a.png", {"--spp", "2", "--size", "16", "--exposure", "-6"});
+    const LayeredImage bright = rendered(folder, scene, "b.png", {"--spp", "2", "--size", "16", "--exposure", "0"});
+    CHECK(dark.color.at(8, 8, 0) < bright.color.at(8, 8, 0));
+    const LayeredImage hdr = rendered(folder, scene, "c.hdr", {"--spp", "2", "--size", "16"});
+    CHECK(hdr.color.at(8, 8, 0) == Approx(full.color.at(8, 8, 0)).epsilon(0.02));
+}
+
+TEST_CASE("a scene without light or camera is seen under a neutral sky, with a warning each", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = write_bare_triangle(folder);
+    const ProcessResult result = render(folder, scene, "out.exr", {"--spp", "1", "--size", "16"});
+    CHECK(result.err.find("warning: " + scene + ": the scene has no light") != std::string::npos);
+    CHECK(result.err.find("warning: " + scene + ": the scene has no camera") != std::string::npos);
+    const LayeredImage image = read_image(folder.file("out.exr"));
+    CHECK(image.color.width == 16);
+    CHECK(image.color.at(0, 0, 1) > 0);
+    const ProcessResult lit = render(folder, scene, "out.exr", {"--spp", "1", "--size", "16", "--env", "2,3,4"});
+    CHECK(lit.err.find("no light") == std::string::npos);
+    const LayeredImage sky = read_image(folder.file("out.exr"));
+    CHECK(sky.color.at(0, 0, 0) == 2);
+    CHECK(sky.color.at(0, 0, 2) == 4);
+    render(folder, scene, "out.exr", {"--spp", "1", "--size", "16", "--env", "2,3,4", "--env-scale", "0.5"});
+    CHECK(read_image(folder.file("out.exr")).color.at(0, 0, 1) == 1.5F);
+    render(folder, scene, "out.exr", {"--spp", "1", "--size", "16", "--env", "0,0,0"});
+    CHECK(read_image(folder.file("out.exr")).color.at(0, 0, 0) == 0);
+}
+
+TEST_CASE("--time ends on time", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const ProcessResult result = render(folder, scene, "out.exr", {"--time", "1.5", "--size", "32", "--json"});
+    const auto json = nlohmann::json::parse(result.out);
+    CHECK(json.at("seconds").get<double>() == Approx(1.5).epsilon(0.05));
+    CHECK(json.at("spp").get<int>() > 1);
+    CHECK(json.at("interrupted") == false);
+    CHECK(result.err.find("spp") != std::string::npos);
+}
+
+TEST_CASE("an interrupt saves the work so far and ends with 130", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const std::string out = folder.file("out.exr");
+    Process process(folder, {"render", scene, "-o", out, "--spp", "100000000", "--size", "32", "--json"});
+    REQUIRE(process.wait_for_error_text("spp", 60));
+    process.send(SIGINT);
+    const ProcessResult result = process.finish();
+    INFO(result.err);
+    CHECK(result.exit_code == 130);
+    const auto json = nlohmann::json::parse(result.out);
+    CHECK(json.at("interrupted") == true);
+    CHECK(json.at("spp").get<int>() > 0);
+    const LayeredImage image = read_image(out);
+    CHECK(image.metadata.at("interrupted") == "yes");
+    CHECK(image.metadata.at("spp") == std::to_string(json.at("spp").get<int>()));
+    CHECK(image.metadata.at("command").find("--spp " + image.metadata.at("spp") + " ") != std::string::npos);
+    double sum = 0;
+    for (const float value : image.color.data) {
+        sum += value;
+    }
+    CHECK(std::isfinite(sum));
+    CHECK(sum > 0);
+}
