@@ -12,7 +12,7 @@ std::vector<vk::AccelerationStructureInstanceKHR> describe_instances(const Packe
     described.reserve(packed.instances.size());
     for (std::size_t i = 0; i < packed.instances.size(); ++i) {
         const shared::Instance& instance = packed.instances[i];
-        vk::AccelerationStructureInstanceKHR target;
+        vk::AccelerationStructureInstanceKHR target{};  // its bit fields have no initialisers of their own
         for (std::size_t column = 0; column < 4; ++column) {
             const auto c = static_cast<glm::length_t>(column);
             target.transform.matrix[0][column] = instance.row_0[c];

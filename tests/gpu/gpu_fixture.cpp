@@ -1,0 +1,165 @@
+#include "gpu_fixture.h"
+
+#include <bit>
+#include <cstring>
+
+#include "acceleration.h"
+#include "bindings.h"
+#include "commands.h"
+#include "film_memory.h"
+#include "path_renderer.h"
+#include "pipeline.h"
+#include "test_shader_binaries.h"
+#include "upload.h"
+
+namespace diptych::tests {
+namespace {
+
+bool has_validation_layer() {
+    static const bool present = [] {
+        try {
+            open_instance(true);
+            return true;
+        } catch (const Error&) {
+            report_skipped("the Vulkan validation layer is not installed (package vulkan-validationlayers)");
+            return false;
+        }
+    }();
+    return present;
+}
+
+}  // namespace
+
+bool has_device() {
+    for (const VulkanDeviceInfo& info : list_vulkan_devices()) {
+        if (info.usable) {
+            return true;
+        }
+    }
+    return false;
+}
+
+VulkanOptions test_options() { return {.device = "", .validation = has_validation_layer()}; }
+
+void check_no_validation_messages() {
+    for (const std::string& message : validation_messages()) {
+        INFO(message);
+        CHECK(false);
+    }
+    CHECK(validation_message_count() == 0);
+    clear_validation_messages();
+}
+
+std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays) {
+    const Gpu gpu = open_gpu("", test_options().validation);
+    const SceneMemory scene = upload_scene(gpu, packed);
+    const BottomLevels bottom = build_bottom_levels(gpu, packed, scene);
+    const TopLevel top = build_top_level(gpu, packed, bottom);
+    const FilmMemory film = make_film(gpu, static_cast<int>(rays.size()), 1, shared::FEATURE_FIRST_HIT_LAYERS);
+    Uploader uploader(gpu);
+    const Buffer ray_buffer = upload_array(gpu, uploader, "rays", std::span(rays),
+                                           vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eShaderDeviceAddress);
+    uploader.finish();
+    SceneAddresses addresses = scene_addresses(scene);
+    enter_film(addresses, film);
+    addresses.recorded_rays = ray_buffer.address;
+    const PipelineLayout layout = make_pipeline_layout(gpu);
+    const vk::raii::PipelineCache cache = open_pipeline_cache(gpu, {});
+    const bool alpha = (packed.features & shared::FEATURE_ALPHA) != 0;
+    const TracePipeline pipeline =
+        make_pipeline(gpu, layout, cache, scene_shaders(test_shader_binary("trace_rays.rgen"), alpha), packed.features, false);
+    const Bindings bindings = make_bindings(gpu, layout, *top.structure, addresses, packed.constants);
+    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
+        record_dispatch(commands, pipeline, layout, bindings, {}, static_cast<std::uint32_t>(rays.size()), 1);
+    });
+    const Film host = read_film(gpu, film);
+    std::vector<TracedRay> traced;
+    for (const shared::FilmFirstHit& result : host.first_hits) {
+        traced.push_back({.hit = {.instance = std::bit_cast<std::uint32_t>(result.albedo.x),
+                                  .geometry = std::bit_cast<std::uint32_t>(result.albedo.y),
+                                  .primitive = std::bit_cast<std::uint32_t>(result.albedo.z),
+                                  .barycentrics = {result.normal.x, result.normal.y},
+                                  .t = result.normal.z},
+                          .blocked = result.depth != 0.0F});
+    }
+    return traced;
+}
+
+void add_geometry(PackedScene& packed, const std::vector<shared::vec3>& positions, const std::vector<shared::uvec3>& triangles,
+                  std::uint32_t material) {
+    shared::Geometry geometry{};
+    geometry.first_triangle = static_cast<std::uint32_t>(packed.triangles.size());
+    geometry.first_vertex = static_cast<std::uint32_t>(packed.positions.size());
+    geometry.first_normal = geometry.first_tangent = geometry.first_color = shared::NONE;
+    geometry.first_uv_0 = geometry.first_uv_1 = shared::NONE;
+    geometry.material = material;
+    packed.geometries.push_back(geometry);
+    const bool alpha =
+        (packed.materials[material].flags & (shared::MATERIAL_ALPHA_MASK | shared::MATERIAL_ALPHA_BLEND)) != 0;
+    packed.geometry_extents.push_back({.triangle_count = static_cast<std::uint32_t>(triangles.size()),
+                                       .vertex_count = static_cast<std::uint32_t>(positions.size()),
+                                       .alpha = alpha});
+    packed.positions.insert(packed.positions.end(), positions.begin(), positions.end());
+    packed.triangles.insert(packed.triangles.end(), triangles.begin(), triangles.end());
+    ++packed.meshes.back().geometry_count;
+}
+
+void add_instance(PackedScene& packed, std::uint32_t mesh, const glm::mat4x3& m) {
+    shared::Instance instance{};
+    instance.row_0 = {m[0][0], m[1][0], m[2][0], m[3][0]};
+    instance.row_1 = {m[0][1], m[1][1], m[2][1], m[3][1]};
+    instance.row_2 = {m[0][2], m[1][2], m[2][2], m[3][2]};
+    instance.first_geometry = packed.meshes[mesh].first_geometry;
+    instance.first_emitter_slot = shared::NONE;
+    instance.mirrored = glm::determinant(glm::mat3(m)) < 0 ? 1 : 0;
+    packed.instances.push_back(instance);
+    packed.instance_meshes.push_back(mesh);
+}
+
+PackedScene random_scene(std::uint32_t seed, std::uint32_t meshes, std::uint32_t instances, std::uint32_t triangles) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
+    const auto point = [&] {
+        const float x = uniform(random);
+        const float y = uniform(random);
+        const float z = uniform(random);
+        return shared::vec3(x, y, z);
+    };
+    PackedScene packed;
+    shared::Material material{};
+    material.base_color = shared::vec4(0.5F, 0.5F, 0.5F, 1.0F);
+    material.base_color_slot = material.metallic_roughness_slot = material.normal_slot = shared::NONE;
+    material.emission_slot = material.specular_slot = material.specular_color_slot = shared::NONE;
+    packed.materials.push_back(material);
+    for (std::uint32_t mesh = 0; mesh < meshes; ++mesh) {
+        packed.meshes.push_back({.first_geometry = static_cast<std::uint32_t>(packed.geometries.size()), .geometry_count = 0});
+        for (std::uint32_t geometry = 0; geometry < 1 + mesh % 3; ++geometry) {
+            std::vector<shared::vec3> positions;
+            std::vector<shared::uvec3> indices;
+            for (std::uint32_t i = 0; i < triangles; ++i) {
+                const shared::vec3 center = point();
+                for (int k = 0; k < 3; ++k) {
+                    positions.push_back(center + 0.3F * point());
+                }
+                // Backwards, so that an index that is not relative to its geometry cannot go unseen.
+                const std::uint32_t last = 3 * (triangles - 1 - i);
+                indices.push_back({last + 2, last, last + 1});
+            }
+            add_geometry(packed, positions, indices, 0);
+        }
+    }
+    for (std::uint32_t i = 0; i < instances; ++i) {
+        glm::mat4x3 m(1.0F);
+        for (int column = 0; column < 3; ++column) {
+            m[column] = m[column] + 0.4F * point();
+            m[column] = m[column] * (1.0F + 0.5F * uniform(random));
+        }
+        m[0] = i % 2 == 1 ? -m[0] : m[0];
+        m[3] = 2.0F * point();
+        add_instance(packed, i % meshes, m);
+    }
+    packed.constants.size = {16, 16};
+    return packed;
+}
+
+}  // namespace diptych::tests
