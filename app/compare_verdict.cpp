@@ -9,6 +9,9 @@ namespace diptych::app {
 
 namespace {
 
+/// Of the pixels: where so many agree, those that do not are paths that rounding sent elsewhere.
+constexpr double rounding_share = 0.99;
+
 bool same_entry(const LayeredImage& a, const LayeredImage& b, const char* name) {
     const auto in_a = a.metadata.find(name);
     const auto in_b = b.metadata.find(name);
@@ -45,6 +48,8 @@ Verdict judge(const Difference& difference, const LayeredImage& a, const Layered
     const double z = largest_z(difference);
     if (difference.mse == 0 && difference.nonfinite == 0) {
         verdict.text = "The two pictures are identical.";
+    } else if (verdict.same_random_numbers && difference.fraction_equal >= rounding_share) {
+        verdict.text = apart + ": both drew the same random numbers, and what is left is rounding.";
     } else if (verdict.same_random_numbers) {
         verdict.text = apart + "; both drew the same random numbers, so whether that is noise cannot be told.";
     } else if (std::isnan(z)) {

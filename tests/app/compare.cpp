@@ -79,6 +79,11 @@ TEST_CASE("pictures of one seed are told apart from independent ones", "[app]") 
     CHECK(result.exit_code == 0);
     CHECK(contains(result.err, "z means nothing"));
     CHECK(contains(result.out, "same random numbers"));
+    LayeredImage rounded = read_image(a);
+    rounded.color.data[100] *= 1.000001F;
+    write_exr(folder.file("rounded.exr"), rounded);
+    const ProcessResult close = run_diptych(folder, {"compare", a, folder.file("rounded.exr")});
+    CHECK(contains(close.out, "what is left is rounding"));
     const ProcessResult same = run_diptych(folder, {"compare", a, a});
     CHECK(contains(same.out, "identical"));
 }
