@@ -88,6 +88,11 @@ FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint fe
     if (!(wo.z > COS_MIN && wi.z > COS_MIN) || p_specular < 0.0f) {
         return r;
     }
+    if (!(p_specular > 0.0f)) {  // nothing but diffuse: f0 and f90 are 0
+        r.value = p.diffuse * (INV_PI * wi.z);
+        r.pdf = pdf_cosine_hemisphere_solid_angle(wi.z);
+        return r;
+    }
     // |wo + wi| = 2 o·h, at least COS_MIN as both are above the horizon.
     vec3 sum = wo + wi;
     float sum_length = length(sum);
@@ -96,7 +101,7 @@ FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint fe
     vec3 fresnel = fresnel_schlick(p.f0, p.f90, o_dot_h);
     r.value = p.diffuse * (vec3(1.0f, 1.0f, 1.0f) - fresnel) * (INV_PI * wi.z);
     r.pdf = (1.0f - p_specular) * pdf_cosine_hemisphere_solid_angle(wi.z);
-    if (p_specular > 0.0f && !bsdf_is_mirror(p, features)) {
+    if (!bsdf_is_mirror(p, features)) {
         float alpha = clamp(p.alpha, ALPHA_MIRROR, 1.0f);
         if (bsdf_is_blinn_phong(p, features)) {
             r.value += fresnel * blinn_phong_eval(wo, wi, h, alpha);

@@ -51,11 +51,10 @@ inline float intBitsToFloat(int x) { return std::bit_cast<float>(x); }
 /// High 32 bits of the 64-bit product.
 inline uint multiply_high(uint a, uint b) { return static_cast<uint>((std::uint64_t{a} * b) >> 32U); }
 inline uint bitfieldReverse(uint x) {
-    x = (x << 16U) | (x >> 16U);
-    x = ((x & 0x00ff00ffU) << 8U) | ((x & 0xff00ff00U) >> 8U);
-    x = ((x & 0x0f0f0f0fU) << 4U) | ((x & 0xf0f0f0f0U) >> 4U);
-    x = ((x & 0x33333333U) << 2U) | ((x & 0xccccccccU) >> 2U);
-    return ((x & 0x55555555U) << 1U) | ((x & 0xaaaaaaaaU) >> 1U);
+    x = __builtin_bswap32(x);
+    x = ((x & 0x0f0f0f0fU) << 4U) | ((x >> 4U) & 0x0f0f0f0fU);
+    x = ((x & 0x33333333U) << 2U) | ((x >> 2U) & 0x33333333U);
+    return ((x & 0x55555555U) << 1U) | ((x >> 1U) & 0x55555555U);
 }
 inline vec3 xyz(const vec4& v) { return vec3(v); }
 }  // namespace diptych::shared

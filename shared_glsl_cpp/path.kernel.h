@@ -24,7 +24,7 @@ FN uint ray_alpha_key(IN(Sampler) random, uint ray) {
     if (!feature(FEATURE_ALPHA)) {
         return 0u;
     }
-    return pcg4d(uvec4(random.pixel.x | (random.pixel.y << 16), random.sample_index, ray, random.seed ^ 0xa1fa0000u)).x;
+    return pcg4d(uvec4(random.key.x, random.key.y, random.sample_index, 0x416c7068u ^ ray)).x;
 }
 
 /// Weight of finding a light by sampling the material with density `pdf` where light sampling had density `pdf_light`.
@@ -80,12 +80,8 @@ FN vec3 direct_light(IN(Surface) s, IN(SurfaceBsdf) bsdf, vec3 wo, IN(Sampler) r
 }
 
 FN PathSample trace_path(uvec2 pixel, uint sample_index) {
-    Sampler random;
-    random.pixel = pixel;
-    random.sample_index = sample_index;
-    random.seed = constants.seed;
-    random.kind = constants.sampler_kind;
-    random.sample_count = constants.sample_count;
+    Sampler random =
+        make_sampler(pixel, sample_index, constants.seed, constants.sampler_kind, constants.sample_count);
 
     vec2 jitter = sample_2d(random, DIMENSION_FILM);
     vec2 film = vec2((float(pixel.x) + jitter.x) / float(constants.size.x),

@@ -15,22 +15,36 @@ CONST uint SAMPLER_SOBOL = 2u;       // dimensions below SOBOL_MAX_DIMENSION; th
 CONST uint SOBOL_MAX_DIMENSION = 100u;  // camera and eight vertices
 CONST uint HAMMERSLEY_MAX_COUNT = 1u << 23;
 
+/// One sample of one pixel; make_sampler fills it.
 struct Sampler {
-    uvec2 pixel;
+    uvec2 key;  // hash of pixel and seed
     uint sample_index;
-    uint seed;
+    uint reversed_index;
     uint kind;          // SAMPLER_…
     uint sample_count;  // of the Hammersley set
 };
 
+FN Sampler make_sampler(uvec2 pixel, uint sample_index, uint seed, uint kind, uint sample_count) {
+    Sampler s;
+    uvec4 words = pcg4d(uvec4(pixel.x, pixel.y, hash_word(seed + 0x9e3779b9u), 0x50697865u));
+    s.key = uvec2(words.x, words.y);
+    s.sample_index = sample_index;
+    s.reversed_index = bitfieldReverse(sample_index);
+    s.kind = kind;
+    s.sample_count = sample_count;
+    return s;
+}
+
 FN uvec2 independent_bits_2d(IN(Sampler) s, uint dimension) {
-    uvec4 v = pcg4d(uvec4(s.pixel.x, s.pixel.y, s.sample_index, dimension ^ hash_word(s.seed + 0x9e3779b9u)));
+    uvec4 v = pcg4d(uvec4(s.key.x, s.key.y, s.sample_index, dimension));
     return uvec2(v.z, v.w);
 }
 
-/// Four words that stay the same for all samples of a pixel's dimension; `purpose` tells uses apart.
-FN uvec4 pixel_words(IN(Sampler) s, uint dimension, uint purpose) {
-    return pcg4d(uvec4(s.pixel.x, s.pixel.y, hash_combine(purpose, dimension), hash_word(s.seed + 0x9e3779b9u)));
+/// Three words that stay the same for all samples of a pixel's pair of dimensions.
+FN uvec3 dimension_words(IN(Sampler) s, uint dimension) {
+    uint a = hash_word(s.key.x ^ (dimension * 0x9e3779b9u));
+    uint b = hash_word(s.key.y + dimension * 0x85ebca6bu);
+    return uvec3(a, b, hash_word(a + s.key.y));
 }
 
 /// (i + 1/2)/n as a 32-bit fraction, rounded down, by long division; i < n <= HAMMERSLEY_MAX_COUNT.
@@ -73,7 +87,7 @@ FN uint permute_index(uint i, uint n, uint key) {
 /// Point i of the set (i/n, radical inverse of i), shifted on the torus per pixel (Cranley & Patterson 1976). The lens
 /// takes the same set in another order.
 FN uvec2 hammersley_bits_2d(IN(Sampler) s, uint dimension) {
-    uvec4 words = pixel_words(s, dimension, 0x48616d6du);
+    uvec3 words = dimension_words(s, dimension);
     uint i = s.sample_index;
     if (dimension != DIMENSION_FILM) {
         i = permute_index(i, s.sample_count, words.z);
@@ -103,8 +117,8 @@ FN uint sobol_second_reversed(uint i) {
 /// A (0,2)-sequence, Owen-scrambled, its order shuffled by pixel and pair of dimensions (Burley 2020, "Practical
 /// Hash-based Owen Scrambling").
 FN uvec2 sobol_bits_2d(IN(Sampler) s, uint dimension) {
-    uvec4 words = pixel_words(s, dimension, 0x536f626fu);
-    uint i = bitfieldReverse(owen_scramble_reversed(bitfieldReverse(s.sample_index), words.z));
+    uvec3 words = dimension_words(s, dimension);
+    uint i = bitfieldReverse(owen_scramble_reversed(s.reversed_index, words.z));
     uint first = owen_scramble_reversed(i, words.x);
     uint second = owen_scramble_reversed(sobol_second_reversed(i), words.y);
     return uvec2(bitfieldReverse(first), bitfieldReverse(second));

@@ -9,6 +9,8 @@ SHARED_BEGIN
 
 CONST float SPHERICAL_TRIANGLE_MIN = 3e-4f;  // sr; smaller ones look flat, and directions lose digits
 CONST float SPHERICAL_TRIANGLE_MAX = 6.22f;  // sr; larger ones, close to the half space, lose digits too
+CONST float TAN_HALF_MIN = 1.5e-4f;      // tan(SPHERICAL_TRIANGLE_MIN / 2)
+CONST float TAN_HALF_MAX = 0.0316032f;   // -tan(SPHERICAL_TRIANGLE_MAX / 2)
 
 struct TriangleSample {
     vec2 barycentrics;  // of the second and third vertex
@@ -34,7 +36,8 @@ struct TriangleView {
     vec3 e1;
     vec3 e2;
     float volume;  // a . (e1 x e2): six times that of the tetrahedron, signed
-    float solid_angle;
+    float denominator;  // tan(solid angle / 2) = |volume| / denominator
+    vec3 lengths;       // of a, b, c
     float scale;
 };
 
@@ -79,18 +82,25 @@ FN TriangleView triangle_view(vec3 reference, vec3 v0, vec3 e1, vec3 e2) {
     PRECISE float denominator =
         length_a * length_b * length_c + dot(view.a, b) * length_c + dot(view.a, c) * length_b + dot(b, c) * length_a;
     view.volume = volume;
-    view.solid_angle = 2.0f * arctan2(abs(volume), denominator);
+    view.denominator = denominator;
+    view.lengths = vec3(length_a, length_b, length_c);
     return view;
 }
 
+FN float view_solid_angle(IN(TriangleView) view) {
+    return 2.0f * arctan2(abs(view.volume), view.denominator);
+}
+
+/// Whether the solid angle lies between SPHERICAL_TRIANGLE_MIN and _MAX, by its tangent.
 FN bool samples_spherically(IN(TriangleView) view) {
-    return view.solid_angle >= SPHERICAL_TRIANGLE_MIN && view.solid_angle <= SPHERICAL_TRIANGLE_MAX;
+    float bound = view.denominator >= 0.0f ? TAN_HALF_MIN : TAN_HALF_MAX;
+    return abs(view.volume) >= bound * abs(view.denominator) && abs(view.volume) > 0.0f;
 }
 
 /// In [0, 2 pi]; 0 for a degenerate triangle and from within its plane, outside it.
 FN float solid_angle_triangle(vec3 reference, vec3 v0, vec3 e1, vec3 e2) {
     TriangleView view = triangle_view(reference, v0, e1, e2);
-    return view.solid_angle;
+    return view_solid_angle(view);
 }
 
 /// Uniform by area, by solid angle: r^2/(A |cos|), where |cos| A = |a . n|/(2 r). `to_point` in the view's scale.
@@ -107,7 +117,7 @@ FN float pdf_triangle_area_solid_angle(IN(TriangleView) view, vec3 to_point) {
 FN float pdf_triangle_solid_angle(vec3 reference, vec3 v0, vec3 e1, vec3 e2, vec3 point_on_triangle) {
     TriangleView view = triangle_view(reference, v0, e1, e2);
     if (samples_spherically(view)) {
-        return 1.0f / view.solid_angle;
+        return 1.0f / view_solid_angle(view);
     }
     return pdf_triangle_area_solid_angle(view, (point_on_triangle - reference) * view.scale);
 }
@@ -122,21 +132,20 @@ FN vec3 unit_orthogonal(vec3 v, vec3 axis) {
 /// A unit direction, uniform over the spherical triangle. Arvo 1995, "Stratified Sampling of Spherical Triangles", with
 /// both inversions in half angles, which keep their digits on small triangles: the arc from A to C' by the excess E of
 /// ABC', tan(b'/2) = sin(E/2)/(tan(c/2) sin(alpha - E/2)), and the arc t from B by sin^2(t/2) = u_y sin^2(BC'/2).
-FN vec3 sample_spherical_triangle(IN(TriangleView) view, vec2 u) {
-    vec3 a = normalize(view.a);
-    vec3 b = normalize(view.b);
-    vec3 c = normalize(view.c);
+FN vec3 sample_spherical_triangle(IN(TriangleView) view, float solid_angle, vec2 u) {
+    vec3 a = view.a / view.lengths.x;
+    vec3 b = view.b / view.lengths.y;
+    vec3 c = view.c / view.lengths.z;
     vec3 toward_b = unit_orthogonal(b - a, a);
     vec3 toward_c = unit_orthogonal(c - a, a);
-    float alpha = arctan2(abs(dot(a, cross(toward_b, toward_c))), dot(toward_b, toward_c));
+    float sin_alpha = abs(dot(a, cross(toward_b, toward_c)));
+    float cos_alpha = dot(toward_b, toward_c);
     float tan_half_c = length(b - a) / max(length(b + a), 1e-20f);
-    float half_excess = 0.5f * u.x * view.solid_angle;
+    float half_excess = 0.5f * u.x * solid_angle;
     float sin_half;
     float cos_half;
     sin_cos(half_excess, sin_half, cos_half);
-    float sin_rest;
-    float cos_rest;
-    sin_cos(alpha - half_excess, sin_rest, cos_rest);
+    float sin_rest = sin_alpha * cos_half - cos_alpha * sin_half;
     float tan_half_b = sin_half / max(tan_half_c * sin_rest, 1e-20f);
     float tan_squared = tan_half_b * tan_half_b;
     vec3 c_new = ((1.0f - tan_squared) * a + 2.0f * tan_half_b * toward_c) / (1.0f + tan_squared);
@@ -167,9 +176,10 @@ FN TriangleSample sample_triangle_solid_angle(vec3 reference, vec3 v0, vec3 e1, 
     TriangleView view = triangle_view(reference, v0, e1, e2);
     TriangleSample result;
     if (samples_spherically(view)) {
-        vec3 direction = sample_spherical_triangle(view, u);
+        float solid_angle = view_solid_angle(view);
+        vec3 direction = sample_spherical_triangle(view, solid_angle, u);
         result.barycentrics = barycentrics_along(view, direction);
-        result.pdf = 1.0f / view.solid_angle;
+        result.pdf = 1.0f / solid_angle;
         if (!(result.barycentrics.x >= 0.0f)) {
             result.barycentrics = vec2(0.0f, 0.0f);
             result.pdf = 0.0f;

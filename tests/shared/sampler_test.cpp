@@ -13,14 +13,8 @@ using diptych::tests::uniform_deviate;
 
 namespace {
 
-Sampler make_sampler(uint kind, uvec2 pixel, uint index, uint seed, uint count) {
-    Sampler s;
-    s.pixel = pixel;
-    s.sample_index = index;
-    s.seed = seed;
-    s.kind = kind;
-    s.sample_count = count;
-    return s;
+Sampler sampler_of(uint kind, uvec2 pixel, uint index, uint seed, uint count) {
+    return make_sampler(pixel, index, seed, kind, count);
 }
 
 const uint kinds[] = {SAMPLER_INDEPENDENT, SAMPLER_HAMMERSLEY, SAMPLER_SOBOL};
@@ -41,7 +35,7 @@ double pair_deviate(Pair pair) {
 TEST_CASE("Every sampler is a pure function into [0, 1)") {
     for (const uint kind : kinds) {
         for (uint i = 0; i < 20000; i++) {
-            const Sampler s = make_sampler(kind, uvec2(i % 61, i % 17), i % 64, i / 1000, 64);
+            const Sampler s = sampler_of(kind, uvec2(i % 61, i % 17), i % 64, i / 1000, 64);
             const uint dimension = 2 * (i % 70);
             const vec2 u = sample_2d(s, dimension);
             REQUIRE((u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1));
@@ -57,10 +51,10 @@ TEST_CASE("Every sampler is uniform over pixels and over seeds, sample by sample
         for (const uint dimension : {DIMENSION_FILM, DIMENSION_LENS, DIMENSION_VERTEX + DIMENSION_BSDF_DIRECTION}) {
             CAPTURE(kind, dimension);
             CHECK(std::abs(pair_deviate([&](uint i) {
-                      return sample_2d(make_sampler(kind, uvec2(i % 640, i / 640), 5, 1, 16), dimension);
+                      return sample_2d(sampler_of(kind, uvec2(i % 640, i / 640), 5, 1, 16), dimension);
                   })) < deviate_limit);
             CHECK(std::abs(pair_deviate([&](uint i) {
-                      return sample_2d(make_sampler(kind, uvec2(7, 9), 15, i, 16), dimension);
+                      return sample_2d(sampler_of(kind, uvec2(7, 9), 15, i, 16), dimension);
                   })) < deviate_limit);
         }
     }
@@ -70,7 +64,7 @@ TEST_CASE("Dimensions, neighbouring pixels, samples and seeds are uncorrelated")
     for (const uint kind : kinds) {
         CAPTURE(kind);
         const auto first = [&](uvec2 pixel, uint index, uint seed, uint dimension) {
-            return sample_1d(make_sampler(kind, pixel, index, seed, 16), dimension);
+            return sample_1d(sampler_of(kind, pixel, index, seed, 16), dimension);
         };
         CHECK(std::abs(pair_deviate([&](uint i) {
                   const uvec2 pixel(i % 640, i / 640);
@@ -91,8 +85,8 @@ TEST_CASE("Dimensions, neighbouring pixels, samples and seeds are uncorrelated")
               })) < deviate_limit);
     }
     CHECK(std::abs(pair_deviate([&](uint i) {
-              return vec2(sample_1d(make_sampler(SAMPLER_INDEPENDENT, uvec2(1, 2), i, 1, 1), DIMENSION_FILM),
-                          sample_1d(make_sampler(SAMPLER_INDEPENDENT, uvec2(1, 2), i + 1, 1, 1), DIMENSION_FILM));
+              return vec2(sample_1d(sampler_of(SAMPLER_INDEPENDENT, uvec2(1, 2), i, 1, 1), DIMENSION_FILM),
+                          sample_1d(sampler_of(SAMPLER_INDEPENDENT, uvec2(1, 2), i + 1, 1, 1), DIMENSION_FILM));
           })) < deviate_limit);
 }
 
@@ -101,12 +95,12 @@ TEST_CASE("Hammersley puts one sample into each of N intervals, rotation undone"
         const uvec2 pixel(12, 34);
         const uint seed = 99;
         for (const uint dimension : {DIMENSION_FILM, DIMENSION_LENS}) {
-            const Sampler base = make_sampler(SAMPLER_HAMMERSLEY, pixel, 0, seed, count);
-            const uvec4 words = pixel_words(base, dimension, 0x48616d6du);
+            const Sampler base = sampler_of(SAMPLER_HAMMERSLEY, pixel, 0, seed, count);
+            const uvec3 words = dimension_words(base, dimension);
             std::set<uint> intervals;
             std::set<uint> inverses;
             for (uint i = 0; i < count; i++) {
-                const uvec2 bits = sample_bits_2d(make_sampler(SAMPLER_HAMMERSLEY, pixel, i, seed, count), dimension);
+                const uvec2 bits = sample_bits_2d(sampler_of(SAMPLER_HAMMERSLEY, pixel, i, seed, count), dimension);
                 intervals.insert(multiply_high(bits.x - words.x, count));
                 inverses.insert(bitfieldReverse(bits.y - words.y));
             }
@@ -127,7 +121,7 @@ TEST_CASE("Hammersley's lens is in no step with its film within a pixel") {
             for (uint pixel = 0; pixel < pixels; pixel++) {
                 double cells[64] = {};
                 for (uint i = 0; i < count; i++) {
-                    const Sampler s = make_sampler(SAMPLER_HAMMERSLEY, uvec2(pixel, 3), i, 1, count);
+                    const Sampler s = sampler_of(SAMPLER_HAMMERSLEY, uvec2(pixel, 3), i, 1, count);
                     const float x = sample_2d(s, DIMENSION_FILM)[film], y = sample_2d(s, DIMENSION_LENS)[lens];
                     cells[std::size_t(x * 8) * 8 + std::size_t(y * 8)] += 1;
                 }
@@ -171,8 +165,8 @@ TEST_CASE("permute_index permutes, and keys differ") {
 
 TEST_CASE("Hammersley past its set and past the lens is independent") {
     for (const auto& [index, dimension] : {std::pair{64u, DIMENSION_FILM}, std::pair{3u, DIMENSION_VERTEX}}) {
-        const Sampler hammersley = make_sampler(SAMPLER_HAMMERSLEY, uvec2(1, 2), index, 3, 64);
-        const Sampler independent = make_sampler(SAMPLER_INDEPENDENT, uvec2(1, 2), index, 3, 64);
+        const Sampler hammersley = sampler_of(SAMPLER_HAMMERSLEY, uvec2(1, 2), index, 3, 64);
+        const Sampler independent = sampler_of(SAMPLER_INDEPENDENT, uvec2(1, 2), index, 3, 64);
         CHECK(sample_bits_2d(hammersley, dimension) == sample_bits_2d(independent, dimension));
     }
 }
@@ -186,7 +180,7 @@ TEST_CASE("Sobol' points are a (0, m, 2)-net for every power of two") {
                     for (uint split = 0; split <= m; split++) {
                         std::set<uint> cells;
                         for (uint i = first; i < first + count; i++) {
-                            const Sampler s = make_sampler(SAMPLER_SOBOL, uvec2(seed, 3), i, seed, count);
+                            const Sampler s = sampler_of(SAMPLER_SOBOL, uvec2(seed, 3), i, seed, count);
                             const uvec2 bits = sample_bits_2d(s, dimension);
                             const uint column = split == 0 ? 0 : bits.x >> (32 - split);
                             const uint row = split == m ? 0 : bits.y >> (32 - (m - split));
@@ -201,8 +195,8 @@ TEST_CASE("Sobol' points are a (0, m, 2)-net for every power of two") {
 }
 
 TEST_CASE("Sobol' from SOBOL_MAX_DIMENSION on is independent") {
-    const Sampler sobol = make_sampler(SAMPLER_SOBOL, uvec2(1, 2), 7, 3, 64);
-    const Sampler independent = make_sampler(SAMPLER_INDEPENDENT, uvec2(1, 2), 7, 3, 64);
+    const Sampler sobol = sampler_of(SAMPLER_SOBOL, uvec2(1, 2), 7, 3, 64);
+    const Sampler independent = sampler_of(SAMPLER_INDEPENDENT, uvec2(1, 2), 7, 3, 64);
     CHECK(sample_bits_2d(sobol, SOBOL_MAX_DIMENSION) == sample_bits_2d(independent, SOBOL_MAX_DIMENSION));
     CHECK(sample_bits_2d(sobol, DIMENSION_VERTEX) != sample_bits_2d(independent, DIMENSION_VERTEX));
 }
@@ -216,7 +210,7 @@ TEST_CASE("Estimates over seeds are unbiased, and stratified ones vary less") {
         for (uint seed = 0; seed < seeds; seed++) {
             double hits = 0;
             for (uint i = 0; i < count; i++) {
-                const vec2 u = sample_2d(make_sampler(kind, uvec2(5, 5), i, seed, count), DIMENSION_LENS);
+                const vec2 u = sample_2d(sampler_of(kind, uvec2(5, 5), i, seed, count), DIMENSION_LENS);
                 hits += u.x * u.x + u.y * u.y < 1 ? 1.0 / count : 0.0;
             }
             sum += hits;
