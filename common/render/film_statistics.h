@@ -13,12 +13,12 @@ using Rgb = std::array<double, 3>;
 /// Mean radiance; black where the pixel has no samples.
 Rgb pixel_mean(const shared::FilmPixel& pixel);
 
-/// Standard error of that mean, sqrt(s^2 / n) with the unbiased sample variance; NaN below two samples. It treats the samples
-/// as independent, so it overstates the error of a stratified sampler.
+/// Standard error of that mean, sqrt(s^2 / n) with the unbiased sample variance; NaN below two samples. It treats the
+/// samples as independent, so it overstates the error of a stratified sampler.
 Rgb pixel_standard_error(const shared::FilmPixel& pixel, const shared::FilmMoments& moments);
 
-/// The relMSE that the film would show against the truth, mean of se^2 / (mean^2 + 1e-2) over the pixels and channels whose
-/// standard error is known; none where no moments are kept or no pixel has two samples.
+/// The relMSE that the film would show against the truth, mean of se^2 / (mean^2 + 1e-2) over the pixels and channels
+/// whose standard error is known; none where no moments are kept or no pixel has two samples.
 std::optional<double> estimated_relmse(const Film& film);
 
 }  // namespace diptych

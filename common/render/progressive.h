@@ -37,9 +37,10 @@ struct ProgressiveResult {
     bool interrupted = false;
 };
 
-/// Renders in batches of about a quarter of a second, sized by the speed of the one before, until the target is met or `cancel`
-/// is set. The film is looked at between batches, at most once a second and for at most a fiftieth of the time, and only where
-/// there is a progress hook. A batch that `cancel` cut short leaves extra samples on some pixels; they do not count in `spp`.
+/// Renders in batches of about a quarter of a second, sized by the speed of the one before, until the target is met or
+/// `cancel` is set. The film is looked at between batches, at most once a second and for at most a fiftieth of the
+/// time, and only where there is a progress hook. A batch that `cancel` cut short leaves extra samples on some pixels;
+/// they do not count in `spp`.
 ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarget& target,
                                        const std::atomic<bool>& cancel, const ProgressiveHooks& hooks = {});
 

@@ -25,7 +25,9 @@ std::string shell_quoted(const std::string& word) {
     return quoted + "'";
 }
 
-const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
+const char* yes_or_no(bool value) {
+    return value ? "yes" : "no";
+}
 
 }  // namespace
 

@@ -13,15 +13,16 @@ namespace diptych {
 struct RenderOutcome {
     std::string program;  // "diptych 0.1.0 (commit …)"
     std::string device;
-    std::uint32_t spp = 0;       // that every pixel has been given
+    std::uint32_t spp = 0;  // that every pixel has been given
     bool interrupted = false;
-    bool uneven = false;         // cut short within a sample: some pixels have more than `spp`
+    bool uneven = false;  // cut short within a sample: some pixels have more than `spp`
     double seconds = 0;
     std::uint64_t rays = 0;
     std::uint64_t nonfinite = 0;
 };
 
-/// The command line that repeats a render of `spp` samples to the bit: every setting that matters, shell-quoted, files as given.
+/// The command line that repeats a render of `spp` samples to the bit: every setting that matters, shell-quoted, files
+/// as given.
 std::string repeat_command(const RenderRequest& request, std::uint32_t spp);
 
 /// Values by name; "command" is repeat_command of what was reached.

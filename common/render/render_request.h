@@ -10,17 +10,17 @@
 namespace diptych {
 
 struct RenderRequest {
-    std::string scene;        // file
-    std::string output;       // file
+    std::string scene;   // file
+    std::string output;  // file
     std::string backend = "cpu";
     std::string device;       // vulkan: index or name; empty is the best
     std::string camera;       // name or index; empty is the first
     std::string environment;  // "R,G,B" or a file; empty is the scene's own
     double environment_scale = 1;
-    double environment_rotation = 0;      // degrees
-    std::optional<double> lens_radius;    // metres
-    std::optional<double> focus_distance; // metres
-    double exposure = 0;                  // EV, for output that is tone mapped
+    double environment_rotation = 0;       // degrees
+    std::optional<double> lens_radius;     // metres
+    std::optional<double> focus_distance;  // metres
+    double exposure = 0;                   // EV, for output that is tone mapped
     std::string tonemap = "none";
     int threads = 0;  // cpu; 0 is one a core
     bool validation = false;

@@ -17,9 +17,8 @@ struct Choice {
 constexpr Choice<Integrator> integrators[] = {
     {"brdf", Integrator::brdf}, {"direct", Integrator::direct}, {"path", Integrator::path}};
 constexpr Choice<BrdfModel> brdfs[] = {{"ggx", BrdfModel::ggx}, {"blinn-phong", BrdfModel::blinn_phong}};
-constexpr Choice<SamplerKind> samplers[] = {{"independent", SamplerKind::independent},
-                                            {"hammersley", SamplerKind::hammersley},
-                                            {"sobol", SamplerKind::sobol}};
+constexpr Choice<SamplerKind> samplers[] = {
+    {"independent", SamplerKind::independent}, {"hammersley", SamplerKind::hammersley}, {"sobol", SamplerKind::sobol}};
 constexpr Choice<MisHeuristic> heuristics[] = {{"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}};
 
 template <typename T, std::size_t N>
@@ -47,14 +46,30 @@ T value_in(const Choice<T> (&choices)[N], const char* option, const std::string&
 
 }  // namespace
 
-const char* name_of(Integrator integrator) { return name_in(integrators, integrator); }
-const char* name_of(BrdfModel brdf) { return name_in(brdfs, brdf); }
-const char* name_of(SamplerKind sampler) { return name_in(samplers, sampler); }
-const char* name_of(MisHeuristic mis) { return name_in(heuristics, mis); }
+const char* name_of(Integrator integrator) {
+    return name_in(integrators, integrator);
+}
+const char* name_of(BrdfModel brdf) {
+    return name_in(brdfs, brdf);
+}
+const char* name_of(SamplerKind sampler) {
+    return name_in(samplers, sampler);
+}
+const char* name_of(MisHeuristic mis) {
+    return name_in(heuristics, mis);
+}
 
-Integrator integrator_from_name(const std::string& name) { return value_in(integrators, "--integrator", name); }
-BrdfModel brdf_from_name(const std::string& name) { return value_in(brdfs, "--brdf", name); }
-SamplerKind sampler_from_name(const std::string& name) { return value_in(samplers, "--sampler", name); }
-MisHeuristic mis_from_name(const std::string& name) { return value_in(heuristics, "--mis", name); }
+Integrator integrator_from_name(const std::string& name) {
+    return value_in(integrators, "--integrator", name);
+}
+BrdfModel brdf_from_name(const std::string& name) {
+    return value_in(brdfs, "--brdf", name);
+}
+SamplerKind sampler_from_name(const std::string& name) {
+    return value_in(samplers, "--sampler", name);
+}
+MisHeuristic mis_from_name(const std::string& name) {
+    return value_in(heuristics, "--mis", name);
+}
 
 }  // namespace diptych
