@@ -31,7 +31,8 @@ struct BuildLimits {
     std::size_t meshes = 4096;
 };
 
-BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene, const BuildLimits& limits = {});
+BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene,
+                                 const BuildLimits& limits = {});
 
 TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const BottomLevels& bottom);
 

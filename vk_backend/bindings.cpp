@@ -16,8 +16,9 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
     made.constants = upload_array(gpu, uploader, "constants", std::span(&constants, 1), usage);
     uploader.finish();
 
-    const std::array<vk::DescriptorPoolSize, 2> sizes = {{{.type = Type::eAccelerationStructureKHR, .descriptorCount = 1},
-                                                          {.type = Type::eUniformBuffer, .descriptorCount = 2}}};
+    const std::array<vk::DescriptorPoolSize, 2> sizes = {
+        {{.type = Type::eAccelerationStructureKHR, .descriptorCount = 1},
+         {.type = Type::eUniformBuffer, .descriptorCount = 2}}};
     vk::DescriptorPoolCreateInfo pool{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, .maxSets = 1};
     pool.setPoolSizes(sizes);
     made.pool = gpu.device.createDescriptorPool(pool);

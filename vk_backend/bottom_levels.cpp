@@ -6,7 +6,8 @@
 namespace diptych {
 namespace {
 
-constexpr std::uint64_t structure_alignment = 256;  // of an acceleration structure within its buffer, by the specification
+constexpr std::uint64_t structure_alignment =
+    256;  // of an acceleration structure within its buffer, by the specification
 
 using Usage = vk::BufferUsageFlagBits;
 
@@ -19,7 +20,8 @@ struct MeshBuild {
     std::uint64_t triangles = 0;
 };
 
-vk::AccelerationStructureGeometryKHR describe_geometry(const PackedScene& packed, const SceneMemory& scene, std::uint32_t index) {
+vk::AccelerationStructureGeometryKHR describe_geometry(const PackedScene& packed, const SceneMemory& scene,
+                                                       std::uint32_t index) {
     const shared::Geometry& geometry = packed.geometries[index];
     const GeometryExtent& extent = packed.geometry_extents[index];
     vk::AccelerationStructureGeometryTrianglesDataKHR triangles;
@@ -62,10 +64,12 @@ MeshBuild describe_mesh(const Gpu& gpu, const PackedScene& packed, const SceneMe
 }
 
 Buffer structure_buffer(const Gpu& gpu, const char* what, std::uint64_t bytes) {
-    return make_buffer(gpu, what, bytes, Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress, MemoryKind::device);
+    return make_buffer(gpu, what, bytes, Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress,
+                       MemoryKind::device);
 }
 
-vk::raii::AccelerationStructureKHR place_structure(const Gpu& gpu, const Buffer& storage, std::uint64_t offset, std::uint64_t bytes) {
+vk::raii::AccelerationStructureKHR place_structure(const Gpu& gpu, const Buffer& storage, std::uint64_t offset,
+                                                   std::uint64_t bytes) {
     return gpu.device.createAccelerationStructureKHR({.buffer = *storage.handle,
                                                       .offset = offset,
                                                       .size = bytes,
@@ -107,18 +111,20 @@ Batch build_batch(const Gpu& gpu, std::vector<MeshBuild>& builds) {
         handles.push_back(*batch.structures.back());
     }
     const auto count = static_cast<std::uint32_t>(handles.size());
-    const vk::raii::QueryPool queries =
-        gpu.device.createQueryPool({.queryType = vk::QueryType::eAccelerationStructureCompactedSizeKHR, .queryCount = count});
+    const vk::raii::QueryPool queries = gpu.device.createQueryPool(
+        {.queryType = vk::QueryType::eAccelerationStructureCompactedSizeKHR, .queryCount = count});
     run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
         commands.resetQueryPool(*queries, 0, count);
         commands.buildAccelerationStructuresKHR(infos, ranges);
         full_barrier(commands);
-        commands.writeAccelerationStructuresPropertiesKHR(handles, vk::QueryType::eAccelerationStructureCompactedSizeKHR, *queries, 0);
+        commands.writeAccelerationStructuresPropertiesKHR(
+            handles, vk::QueryType::eAccelerationStructureCompactedSizeKHR, *queries, 0);
     });
-    batch.compacted_bytes = queries
-                                .getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                           vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
-                                .second;
+    batch.compacted_bytes =
+        queries
+            .getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                       vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
+            .second;
     return batch;
 }
 
@@ -146,13 +152,15 @@ void compact_batch(const Gpu& gpu, const Batch& batch, std::vector<std::size_t>&
         full_barrier(commands);
     });
     for (const std::size_t mesh : meshes) {
-        levels.addresses[mesh] = gpu.device.getAccelerationStructureAddressKHR({.accelerationStructure = *levels.structures[mesh]});
+        levels.addresses[mesh] =
+            gpu.device.getAccelerationStructureAddressKHR({.accelerationStructure = *levels.structures[mesh]});
     }
 }
 
 }  // namespace
 
-BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene, const BuildLimits& limits) {
+BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene,
+                                 const BuildLimits& limits) {
     BottomLevels levels;
     for (std::size_t i = 0; i < packed.meshes.size(); ++i) {
         levels.structures.emplace_back(nullptr);

@@ -41,8 +41,10 @@ void run_commands(const Gpu& gpu, const Record& record) {
 
 void full_barrier(const vk::raii::CommandBuffer& commands) {
     const vk::MemoryBarrier barrier{.srcAccessMask = vk::AccessFlagBits::eMemoryWrite,
-                                    .dstAccessMask = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite};
-    commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands, {}, barrier, {}, {});
+                                    .dstAccessMask =
+                                        vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite};
+    commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands, {},
+                             barrier, {}, {});
 }
 
 }  // namespace diptych

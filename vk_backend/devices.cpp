@@ -11,11 +11,16 @@ namespace {
 
 std::string type_name(vk::PhysicalDeviceType type) {
     switch (type) {
-        case vk::PhysicalDeviceType::eDiscreteGpu: return "discrete";
-        case vk::PhysicalDeviceType::eIntegratedGpu: return "integrated";
-        case vk::PhysicalDeviceType::eVirtualGpu: return "virtual";
-        case vk::PhysicalDeviceType::eCpu: return "cpu";
-        default: return "other";
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+        return "discrete";
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+        return "integrated";
+    case vk::PhysicalDeviceType::eVirtualGpu:
+        return "virtual";
+    case vk::PhysicalDeviceType::eCpu:
+        return "cpu";
+    default:
+        return "other";
     }
 }
 
@@ -39,7 +44,8 @@ void note_missing_features(const vk::raii::PhysicalDevice& device, std::vector<s
     };
     note(vulkan12.bufferDeviceAddress, "bufferDeviceAddress");
     note(vulkan12.scalarBlockLayout, "scalarBlockLayout");
-    note(chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure, "accelerationStructure");
+    note(chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure,
+         "accelerationStructure");
     note(chain.get<vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>().rayTracingPipeline, "rayTracingPipeline");
 }
 
@@ -66,7 +72,8 @@ std::vector<std::string> find_lacks(const vk::raii::PhysicalDevice& device) {
 }
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
@@ -163,25 +170,31 @@ std::vector<VulkanDeviceInfo> list_vulkan_devices() {
     }
 }
 
+std::size_t choose_device_index(const std::vector<VulkanDeviceInfo>& infos, const std::string& choice) {
+    const int chosen = choice.empty() ? find_best(infos) : find_named(infos, choice);
+    if (chosen < 0) {
+        std::string text =
+            choice.empty() ? "no Vulkan device with ray tracing" : "no Vulkan device matches \"" + choice + "\"";
+        for (const VulkanDeviceInfo& info : infos) {
+            text += "; " + (info.usable ? "there is " + info.name : refusal(info));
+        }
+        throw NoDevice(text +
+                       (choice.empty() ? "; mesa-vulkan-drivers 24.3 or later has one that runs on the CPU" : ""));
+    }
+    const VulkanDeviceInfo& info = infos[static_cast<std::size_t>(chosen)];
+    if (!info.usable) {
+        throw NoDevice("Vulkan device " + refusal(info));
+    }
+    return static_cast<std::size_t>(chosen);
+}
+
 vk::raii::PhysicalDevice choose_device(const vk::raii::Instance& instance, const std::string& choice) {
     const std::vector<vk::raii::PhysicalDevice> devices = instance.enumeratePhysicalDevices();
     std::vector<VulkanDeviceInfo> infos;
     for (const vk::raii::PhysicalDevice& device : devices) {
         infos.push_back(describe_device(device));
     }
-    const int chosen = choice.empty() ? find_best(infos) : find_named(infos, choice);
-    if (chosen < 0) {
-        std::string text = choice.empty() ? "no Vulkan device with ray tracing" : "no Vulkan device matches \"" + choice + "\"";
-        for (const VulkanDeviceInfo& info : infos) {
-            text += "; " + (info.usable ? info.name : refusal(info));
-        }
-        throw NoDevice(text + (choice.empty() ? "; mesa-vulkan-drivers 24.3 or later has one that runs on the CPU" : ""));
-    }
-    const VulkanDeviceInfo& info = infos[static_cast<std::size_t>(chosen)];
-    if (!info.usable) {
-        throw NoDevice("Vulkan device " + refusal(info));
-    }
-    return devices[static_cast<std::size_t>(chosen)];
+    return devices[choose_device_index(infos, choice)];
 }
 
 }  // namespace diptych

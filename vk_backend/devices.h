@@ -24,10 +24,15 @@ std::vector<VulkanDeviceInfo> list_vulkan_devices();
 
 VulkanDeviceInfo describe_device(const vk::raii::PhysicalDevice& device);
 
-/// A family with compute, preferably with graphics too, since that one is the main one everywhere; -1 where there is none.
+/// A family with compute, preferably with graphics too, since that one is the main one everywhere; -1 where there is
+/// none.
 int compute_queue_family(const vk::raii::PhysicalDevice& device);
 
-/// Picks by "" (the best usable), an index or a part of the name, case ignored. Throws NoDevice that says what is missing.
+/// Picks by "" (the best usable), an index or a part of the name, case ignored. Throws NoDevice that says what is
+/// missing.
+std::size_t choose_device_index(const std::vector<VulkanDeviceInfo>& infos, const std::string& choice);
+
+/// The same among an instance's devices.
 vk::raii::PhysicalDevice choose_device(const vk::raii::Instance& instance, const std::string& choice);
 
 /// Extensions that a usable device has and that are enabled on it.

@@ -29,7 +29,8 @@ std::vector<T> read_layer(const Gpu& gpu, const Buffer& buffer) {
         commands.copyBuffer(*buffer.handle, *host.handle, vk::BufferCopy{.size = buffer.size});
         const vk::MemoryBarrier to_host{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
                                         .dstAccessMask = vk::AccessFlagBits::eHostRead};
-        commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, to_host, {}, {});
+        commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, to_host,
+                                 {}, {});
     });
     std::memcpy(elements.data(), host.mapped, buffer.size);
     return elements;
@@ -76,6 +77,8 @@ Film read_film(const Gpu& gpu, const FilmMemory& film) {
     return host;
 }
 
-std::uint64_t film_bytes(const FilmMemory& film) { return film.pixels.size + film.moments.size + film.first_hits.size; }
+std::uint64_t film_bytes(const FilmMemory& film) {
+    return film.pixels.size + film.moments.size + film.first_hits.size;
+}
 
 }  // namespace diptych

@@ -30,8 +30,9 @@ Gpu open_gpu(const std::string& choice, bool validation) {
         gpu.queue = gpu.device.getQueue(gpu.queue_family, 0);
         gpu.memory = gpu.physical.getMemoryProperties();
         const auto properties =
-            gpu.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceRayTracingPipelinePropertiesKHR,
-                                        vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
+            gpu.physical
+                .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceRayTracingPipelinePropertiesKHR,
+                                vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
         const vk::PhysicalDeviceProperties& core = properties.get<vk::PhysicalDeviceProperties2>().properties;
         gpu.name = core.deviceName.data();
         gpu.ray_tracing = properties.get<vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>();

@@ -29,7 +29,8 @@ PFN_vkGetInstanceProcAddr open_loader() {
             }
         }
     }
-    throw NoDevice("no Vulkan loader: " + names.front() + " cannot be opened; install the package libvulkan1 and a driver, such as "
+    throw NoDevice("no Vulkan loader: " + names.front() +
+                   " cannot be opened; install the package libvulkan1 and a driver, such as "
                    "the graphics card's or mesa-vulkan-drivers 24.3 or later");
 }
 
@@ -72,7 +73,8 @@ VulkanInstance open_instance(bool validation) {
             opened.messenger = opened.instance.createDebugUtilsMessengerEXT(validation_messenger());
         }
     } catch (const vk::IncompatibleDriverError&) {
-        throw NoDevice("no Vulkan driver: install the graphics card's, or mesa-vulkan-drivers 24.3 or later, which renders on the CPU");
+        throw NoDevice("no Vulkan driver: install the graphics card's, or mesa-vulkan-drivers 24.3 or later, which "
+                       "renders on the CPU");
     } catch (const vk::SystemError& error) {
         throw NoDevice(std::string("no Vulkan instance: ") + error.what());
     }

@@ -15,9 +15,9 @@ struct VulkanInstance {
     std::optional<vk::raii::DebugUtilsMessengerEXT> messenger;
 };
 
-/// Opens the loader (the library named by DIPTYCH_VULKAN_LOADER, else the system's) and makes a Vulkan 1.2 instance, with core and
-/// synchronisation validation where asked for. Throws NoDevice where there is no loader, no driver or an older Vulkan; Error where
-/// the validation layer is missing.
+/// Opens the loader (the library named by DIPTYCH_VULKAN_LOADER, else the system's) and makes a Vulkan 1.2 instance,
+/// with core and synchronisation validation where asked for. Throws NoDevice where there is no loader, no driver or an
+/// older Vulkan; Error where the validation layer is missing.
 VulkanInstance open_instance(bool validation);
 
 }  // namespace diptych

@@ -28,8 +28,9 @@ PipelineShaders scene_shaders(Spirv ray_generation, bool alpha) {
     return shaders;
 }
 
-void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, const PipelineLayout& layout,
-                     const Bindings& bindings, const shared::Dispatch& dispatch, std::uint32_t width, std::uint32_t height) {
+void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline,
+                     const PipelineLayout& layout, const Bindings& bindings, const shared::Dispatch& dispatch,
+                     std::uint32_t width, std::uint32_t height) {
     commands.bindPipeline(vk::PipelineBindPoint::eRayTracingKHR, *pipeline.pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eRayTracingKHR, *layout.layout, 0, *bindings.set, {});
     commands.pushConstants<shared::Dispatch>(*layout.layout, vk::ShaderStageFlagBits::eRaygenKHR, 0, dispatch);
@@ -37,8 +38,8 @@ void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipelin
 }
 
 PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes)
-    : gpu_(std::make_unique<Gpu>(open_gpu(options.device, validation_wanted(options.validation)))), constants_(packed.constants),
-      features_(packed.features), changes_(changes) {
+    : gpu_(std::make_unique<Gpu>(open_gpu(options.device, validation_wanted(options.validation)))),
+      constants_(packed.constants), features_(packed.features), changes_(changes) {
     const auto start = std::chrono::steady_clock::now();
     in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
     in_context("building acceleration structures", [&] {
@@ -55,7 +56,9 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
         layout_ = make_pipeline_layout(*gpu_);
         path_ = compile(changes.ray_generation.empty() ? shader_binary("path.rgen") : changes.ray_generation, false);
         bindings_ = make_bindings(*gpu_, layout_, *top_.structure, addresses(film_), constants_);
-        queue_ = std::make_unique<TimedQueue>(*gpu_, [this](std::uint64_t work, double seconds) { speed_.learn(work, seconds); });
+        warm_up(path_, bindings_);
+        queue_ = std::make_unique<TimedQueue>(
+            *gpu_, [this](std::uint64_t work, double seconds) { speed_.learn(work, seconds); });
     });
     costs_.compile_seconds = seconds_since(compile_start);
 }
@@ -70,9 +73,18 @@ TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) cons
     const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
     const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
     const bool alpha = (features_ & shared::FEATURE_ALPHA) != 0;
-    TracePipeline pipeline = make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha), features_, record_rays);
+    TracePipeline pipeline =
+        make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha), features_, record_rays);
     save_pipeline_cache(cache, cache_path);
     return pipeline;
+}
+
+// Some drivers compile at the first dispatch. This one adds no samples, and keeps that time out of the measured ones.
+void PathRenderer::warm_up(const TracePipeline& pipeline, const Bindings& bindings) const {
+    run_commands(*gpu_, [&](const vk::raii::CommandBuffer& commands) {
+        record_dispatch(commands, pipeline, layout_, bindings, shared::Dispatch{}, 1, 1);
+        full_barrier(commands);
+    });
 }
 
 void PathRenderer::render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {

@@ -39,6 +39,7 @@ public:
 private:
     TracePipeline compile(Spirv ray_generation, bool record_rays) const;
     SceneAddresses addresses(const FilmMemory& film) const;
+    void warm_up(const TracePipeline& pipeline, const Bindings& bindings) const;
 
     std::unique_ptr<Gpu> gpu_;
     shared::RenderConstants constants_;
@@ -60,7 +61,8 @@ private:
 PipelineShaders scene_shaders(Spirv ray_generation, bool alpha);
 
 /// Records the commands of one dispatch.
-void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, const PipelineLayout& layout,
-                     const Bindings& bindings, const shared::Dispatch& dispatch, std::uint32_t width, std::uint32_t height);
+void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline,
+                     const PipelineLayout& layout, const Bindings& bindings, const shared::Dispatch& dispatch,
+                     std::uint32_t width, std::uint32_t height);
 
 }  // namespace diptych

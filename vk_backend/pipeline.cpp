@@ -31,7 +31,8 @@ vk::RayTracingShaderGroupCreateInfoKHR hit_group(std::uint32_t closest_hit, std:
 
 constexpr std::uint32_t group_count = 5;  // ray generation; two miss; two hit
 
-// Each of the three regions starts at the base alignment; records within one follow each other at the handles' alignment.
+// Each of the three regions starts at the base alignment; records within one follow each other at the handles'
+// alignment.
 void fill_table(const Gpu& gpu, TracePipeline& built) {
     const std::uint64_t handle = gpu.ray_tracing.shaderGroupHandleSize;
     const std::uint64_t base = gpu.ray_tracing.shaderGroupBaseAlignment;
@@ -42,8 +43,8 @@ void fill_table(const Gpu& gpu, TracePipeline& built) {
         built.pipeline.getRayTracingShaderGroupHandlesKHR<std::uint8_t>(0, group_count, group_count * handle);
 
     built.table = make_buffer(gpu, "the shader binding table", first_stride + 2 * pair + base,
-                              vk::BufferUsageFlagBits::eShaderBindingTableKHR | vk::BufferUsageFlagBits::eShaderDeviceAddress |
-                                  vk::BufferUsageFlagBits::eTransferDst,
+                              vk::BufferUsageFlagBits::eShaderBindingTableKHR |
+                                  vk::BufferUsageFlagBits::eShaderDeviceAddress | vk::BufferUsageFlagBits::eTransferDst,
                               MemoryKind::device);
     const vk::DeviceAddress start = align_up(built.table.address, base);
     const std::array<std::uint64_t, group_count> offsets = {0, first_stride, first_stride + stride, first_stride + pair,
@@ -55,9 +56,12 @@ void fill_table(const Gpu& gpu, TracePipeline& built) {
     Uploader uploader(gpu, records.size());
     uploader.upload(built.table, records);
     uploader.finish();
-    built.ray_generation = vk::StridedDeviceAddressRegionKHR{.deviceAddress = start, .stride = first_stride, .size = first_stride};
-    built.miss = vk::StridedDeviceAddressRegionKHR{.deviceAddress = start + offsets[1], .stride = stride, .size = 2 * stride};
-    built.hit = vk::StridedDeviceAddressRegionKHR{.deviceAddress = start + offsets[3], .stride = stride, .size = 2 * stride};
+    built.ray_generation =
+        vk::StridedDeviceAddressRegionKHR{.deviceAddress = start, .stride = first_stride, .size = first_stride};
+    built.miss =
+        vk::StridedDeviceAddressRegionKHR{.deviceAddress = start + offsets[1], .stride = stride, .size = 2 * stride};
+    built.hit =
+        vk::StridedDeviceAddressRegionKHR{.deviceAddress = start + offsets[3], .stride = stride, .size = 2 * stride};
 }
 
 }  // namespace
@@ -65,7 +69,10 @@ void fill_table(const Gpu& gpu, TracePipeline& built) {
 PipelineLayout make_pipeline_layout(const Gpu& gpu) {
     using Type = vk::DescriptorType;
     const std::array<vk::DescriptorSetLayoutBinding, 3> bindings = {{
-        {.binding = 0, .descriptorType = Type::eAccelerationStructureKHR, .descriptorCount = 1, .stageFlags = Stage::eRaygenKHR},
+        {.binding = 0,
+         .descriptorType = Type::eAccelerationStructureKHR,
+         .descriptorCount = 1,
+         .stageFlags = Stage::eRaygenKHR},
         {.binding = 1, .descriptorType = Type::eUniformBuffer, .descriptorCount = 1, .stageFlags = reading_stages},
         {.binding = 2, .descriptorType = Type::eUniformBuffer, .descriptorCount = 1, .stageFlags = reading_stages},
     }};
@@ -97,7 +104,8 @@ TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const 
             return VK_SHADER_UNUSED_KHR;
         }
         modules.push_back(gpu.device.createShaderModule({.codeSize = code.size_bytes(), .pCode = code.data()}));
-        stages.push_back({.stage = stage, .module = *modules.back(), .pName = "main", .pSpecializationInfo = &specialization});
+        stages.push_back(
+            {.stage = stage, .module = *modules.back(), .pName = "main", .pSpecializationInfo = &specialization});
         return static_cast<std::uint32_t>(stages.size() - 1);
     };
     const std::uint32_t generation = add_stage(shaders.ray_generation, Stage::eRaygenKHR);
@@ -115,12 +123,14 @@ TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const 
     info.maxPipelineRayRecursionDepth = 1;
     info.layout = *layout.layout;
     TracePipeline built;
-    built.pipeline = in_context("compiling the shaders", [&] { return gpu.device.createRayTracingPipelineKHR(nullptr, cache, info); });
+    built.pipeline = in_context("compiling the shaders",
+                                [&] { return gpu.device.createRayTracingPipelineKHR(nullptr, cache, info); });
     fill_table(gpu, built);
     return built;
 }
 
-void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::uint32_t width, std::uint32_t height) {
+void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::uint32_t width,
+           std::uint32_t height) {
     commands.traceRaysKHR(pipeline.ray_generation, pipeline.miss, pipeline.hit, {}, width, height, 1);
 }
 

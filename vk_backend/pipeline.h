@@ -41,6 +41,7 @@ TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const 
                             const PipelineShaders& shaders, std::uint32_t features, bool record_rays);
 
 /// Traces width x height rays.
-void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::uint32_t width, std::uint32_t height);
+void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::uint32_t width,
+           std::uint32_t height);
 
 }  // namespace diptych

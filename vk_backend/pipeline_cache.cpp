@@ -47,7 +47,8 @@ std::filesystem::path pipeline_cache_path(const Gpu& gpu) {
     } else {
         return {};
     }
-    const auto properties = gpu.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceIDProperties>();
+    const auto properties =
+        gpu.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceIDProperties>();
     const auto& uuid = properties.get<vk::PhysicalDeviceIDProperties>().deviceUUID;
     const std::uint32_t version = properties.get<vk::PhysicalDeviceProperties2>().properties.driverVersion;
     return folder / "diptych" / ("pipelines-" + hex({uuid.data(), uuid.size()}) + "-" + std::to_string(version));

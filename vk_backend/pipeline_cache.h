@@ -12,7 +12,8 @@ namespace diptych {
 /// XDG_CACHE_HOME/diptych or ~/.cache/diptych, a file a device and driver version; empty where there is neither folder.
 std::filesystem::path pipeline_cache_path(const Gpu& gpu);
 
-/// The bytes behind a checked header; empty where the file is missing, cut short or altered: a driver need not survive those.
+/// The bytes behind a checked header; empty where the file is missing, cut short or altered: a driver need not survive
+/// those.
 std::vector<unsigned char> read_pipeline_cache(const std::filesystem::path& path);
 
 /// Replaces the file whole. Failing to is no error: the next run compiles again.

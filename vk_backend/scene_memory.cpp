@@ -11,7 +11,7 @@ SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed) {
         Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eAccelerationStructureBuildInputReadOnlyKHR;
     SceneMemory scene;
     Uploader uploader(gpu);
-#define UPLOAD_BUFFER(Type, name) \
+#define UPLOAD_BUFFER(Type, name)                                                                                      \
     scene.name = upload_array(gpu, uploader, "scene buffer " #name, std::span(packed.name), usage);
     SCENE_BUFFERS(UPLOAD_BUFFER)
 #undef UPLOAD_BUFFER

@@ -9,7 +9,9 @@ SliceCursor::SliceCursor(Region region, std::uint32_t first_sample, std::uint32_
 
 Slice SliceCursor::next(std::uint64_t budget, std::uint64_t pixel_limit) {
     const std::uint64_t pixels = std::uint64_t{region_.width} * region_.height;
-    Slice slice{.region = {region_.x + x_, region_.y + y_, region_.width, region_.height}, .first_sample = sample_, .sample_count = 1};
+    Slice slice{.region = {region_.x + x_, region_.y + y_, region_.width, region_.height},
+                .first_sample = sample_,
+                .sample_count = 1};
     const bool at_start = x_ == 0 && y_ == 0;
     if (at_start && pixels <= budget && pixels <= pixel_limit) {
         slice.sample_count = static_cast<std::uint32_t>(std::min<std::uint64_t>(budget / pixels, remaining_));
@@ -19,7 +21,8 @@ Slice SliceCursor::next(std::uint64_t budget, std::uint64_t pixel_limit) {
     }
     const std::uint64_t allowed = std::max<std::uint64_t>(1, std::min(budget, pixel_limit));
     if (x_ == 0 && allowed >= region_.width) {
-        slice.region.height = static_cast<std::uint32_t>(std::min<std::uint64_t>(allowed / region_.width, region_.height - y_));
+        slice.region.height =
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(allowed / region_.width, region_.height - y_));
         y_ += slice.region.height;
     } else {
         slice.region.width = static_cast<std::uint32_t>(std::min<std::uint64_t>(allowed, region_.width - x_));
@@ -41,7 +44,8 @@ Slice SliceCursor::next(std::uint64_t budget, std::uint64_t pixel_limit) {
 SpeedEstimate::SpeedEstimate(double target_seconds, std::uint64_t first_budget)
     : target_seconds_(target_seconds), budget_(first_budget) {}
 
-// The estimate may fall by half a step at most, as cheap parts of an image are followed by dear ones, and the budget grows eightfold.
+// The estimate may fall by half a step at most, as cheap parts of an image are followed by dear ones, and the budget
+// grows eightfold.
 void SpeedEstimate::learn(std::uint64_t work, double seconds) {
     const double measured = std::max(seconds, 1e-9) / static_cast<double>(std::max<std::uint64_t>(work, 1));
     seconds_per_work_ = std::max(measured, seconds_per_work_ * 0.5);

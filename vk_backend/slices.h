@@ -22,8 +22,8 @@ struct Slice {
     std::uint64_t work() const { return std::uint64_t{region.width} * region.height * sample_count; }
 };
 
-/// Walks every (pixel, sample) of a region once: several samples of the whole region, or one sample of some rows, or of a part of
-/// a row, as the budget of each step allows. A pixel's samples come in order.
+/// Walks every (pixel, sample) of a region once: several samples of the whole region, or one sample of some rows, or of
+/// a part of a row, as the budget of each step allows. A pixel's samples come in order.
 class SliceCursor {
 public:
     SliceCursor(Region region, std::uint32_t first_sample, std::uint32_t sample_count);

@@ -7,7 +7,8 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-std::vector<vk::AccelerationStructureInstanceKHR> describe_instances(const PackedScene& packed, const BottomLevels& bottom) {
+std::vector<vk::AccelerationStructureInstanceKHR> describe_instances(const PackedScene& packed,
+                                                                     const BottomLevels& bottom) {
     std::vector<vk::AccelerationStructureInstanceKHR> described;
     described.reserve(packed.instances.size());
     for (std::size_t i = 0; i < packed.instances.size(); ++i) {
@@ -34,9 +35,9 @@ TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const Bottom
     Uploader uploader(gpu, std::uint64_t{8} << 20U);
     // Instances lie at multiples of 16 bytes; with none, the address still has to be one.
     const std::vector<vk::AccelerationStructureInstanceKHR> unused(1);
-    const Buffer instances = upload_array(gpu, uploader, "instances of acceleration structures",
-                                          std::span(described.empty() ? unused : described),
-                                          Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress);
+    const Buffer instances = upload_array(
+        gpu, uploader, "instances of acceleration structures", std::span(described.empty() ? unused : described),
+        Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress);
     uploader.finish();
 
     vk::AccelerationStructureGeometryInstancesDataKHR data;
@@ -54,13 +55,15 @@ TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const Bottom
         gpu.device.getAccelerationStructureBuildSizesKHR(vk::AccelerationStructureBuildTypeKHR::eDevice, info, count);
 
     TopLevel top;
-    top.storage = make_buffer(gpu, "the instances' acceleration structure", sizes.accelerationStructureSize,
-                              Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress, MemoryKind::device);
+    top.storage =
+        make_buffer(gpu, "the instances' acceleration structure", sizes.accelerationStructureSize,
+                    Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress, MemoryKind::device);
     top.structure = gpu.device.createAccelerationStructureKHR({.buffer = *top.storage.handle,
                                                                .size = sizes.accelerationStructureSize,
                                                                .type = vk::AccelerationStructureTypeKHR::eTopLevel});
-    const Buffer scratch = make_buffer(gpu, "building acceleration structures", sizes.buildScratchSize + gpu.scratch_alignment,
-                                       Usage::eStorageBuffer | Usage::eShaderDeviceAddress, MemoryKind::device);
+    const Buffer scratch =
+        make_buffer(gpu, "building acceleration structures", sizes.buildScratchSize + gpu.scratch_alignment,
+                    Usage::eStorageBuffer | Usage::eShaderDeviceAddress, MemoryKind::device);
     info.dstAccelerationStructure = *top.structure;
     info.scratchData.deviceAddress = align_up(scratch.address, gpu.scratch_alignment);
     const vk::AccelerationStructureBuildRangeInfoKHR range{.primitiveCount = count};

@@ -55,11 +55,14 @@ struct RayMemory {
 };
 
 RayMemory make_ray_memory(const Gpu& gpu, const Block& block) {
-    const vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferDst | Usage::eTransferSrc;
+    const vk::BufferUsageFlags usage =
+        Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferDst | Usage::eTransferSrc;
     RayMemory memory;
-    memory.rays = make_buffer(gpu, "recorded rays", block.rays() * sizeof(shared::RecordedRay), usage, MemoryKind::device);
+    memory.rays =
+        make_buffer(gpu, "recorded rays", block.rays() * sizeof(shared::RecordedRay), usage, MemoryKind::device);
     memory.counters = make_buffer(gpu, "ray counters", sizeof(shared::RayCounters), usage, MemoryKind::device);
-    memory.host = make_buffer(gpu, "ray counters", sizeof(shared::RayCounters), Usage::eTransferDst, MemoryKind::readback);
+    memory.host =
+        make_buffer(gpu, "ray counters", sizeof(shared::RayCounters), Usage::eTransferDst, MemoryKind::readback);
     run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
         commands.fillBuffer(*memory.rays.handle, 0, VK_WHOLE_SIZE, 0);
         commands.fillBuffer(*memory.counters.handle, 0, VK_WHOLE_SIZE, 0);
@@ -74,7 +77,8 @@ shared::RayCounters read_counters(const Gpu& gpu, const RayMemory& memory) {
         commands.copyBuffer(*memory.counters.handle, *memory.host.handle, vk::BufferCopy{.size = memory.counters.size});
         const vk::MemoryBarrier to_host{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
                                         .dstAccessMask = vk::AccessFlagBits::eHostRead};
-        commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, to_host, {}, {});
+        commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, to_host,
+                                 {}, {});
     });
     shared::RayCounters counters{};
     std::memcpy(&counters, memory.host.mapped, sizeof(counters));
@@ -93,7 +97,8 @@ struct Runner {
         SliceCursor cursor(block.region, 0, block.samples);
         const std::uint64_t limit = gpu.ray_tracing.maxRayDispatchInvocationCount;
         while (!cursor.done()) {
-            const std::uint64_t budget = one_by_one ? std::min(speed.budget(), block.paths_per_sample()) : speed.budget();
+            const std::uint64_t budget =
+                one_by_one ? std::min(speed.budget(), block.paths_per_sample()) : speed.budget();
             const Slice slice = cursor.next(budget, limit);
             const std::uint64_t lane = slice.first_sample * block.paths_per_sample() +
                                        std::uint64_t{slice.region.y - block.region.y} * block.region.width +
@@ -106,7 +111,8 @@ struct Runner {
             dispatch.lane_count = static_cast<std::uint32_t>(block.paths());
             dispatch.ray_capacity = block.capacity;
             queue.submit(slice.work(), [&](const vk::raii::CommandBuffer& commands) {
-                record_dispatch(commands, pipeline, layout, bindings, dispatch, slice.region.width, slice.region.height);
+                record_dispatch(commands, pipeline, layout, bindings, dispatch, slice.region.width,
+                                slice.region.height);
             });
         }
         queue.drain();
@@ -147,6 +153,8 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
             all.recorded_rays = memory.rays.address;
             all.ray_counters = memory.counters.address;
             const Bindings bindings = make_bindings(*gpu_, layout_, *top_.structure, all, constants_);
+            warm_up(recording, bindings);
+            warm_up(bare, bindings);
             const Runner runner{.gpu = *gpu_, .layout = layout_, .block = block};
             runner.integrate(recording, bindings, true);
             const shared::RayCounters counters = read_counters(*gpu_, memory);

@@ -32,8 +32,10 @@ private:
 
 /// A device buffer that will hold the elements, with eTransferDst added to its usage. Nothing is allocated for none.
 template <typename T>
-Buffer upload_array(const Gpu& gpu, Uploader& uploader, const char* what, std::span<const T> elements, vk::BufferUsageFlags usage) {
-    Buffer buffer = make_buffer(gpu, what, elements.size_bytes(), usage | vk::BufferUsageFlagBits::eTransferDst, MemoryKind::device);
+Buffer upload_array(const Gpu& gpu, Uploader& uploader, const char* what, std::span<const T> elements,
+                    vk::BufferUsageFlags usage) {
+    Buffer buffer = make_buffer(gpu, what, elements.size_bytes(), usage | vk::BufferUsageFlagBits::eTransferDst,
+                                MemoryKind::device);
     uploader.upload(buffer, std::as_bytes(elements));
     return buffer;
 }

@@ -17,8 +17,8 @@ struct VulkanOptions {
     bool validation = false;  // core and synchronisation validation; DIPTYCH_VALIDATION=1 asks for it too
 };
 
-/// Uploads the scene, builds its acceleration structures and compiles its pipeline; `packed` is not needed afterwards. Throws
-/// NoDevice where no device serves, saying what is missing; Error where one fails.
+/// Uploads the scene, builds its acceleration structures and compiles its pipeline; `packed` is not needed afterwards.
+/// Throws NoDevice where no device serves, saying what is missing; Error where one fails.
 std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options);
 
 }  // namespace diptych

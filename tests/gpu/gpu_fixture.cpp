@@ -9,6 +9,7 @@
 #include "film_memory.h"
 #include "path_renderer.h"
 #include "pipeline.h"
+#include "scene/generate.h"
 #include "test_shader_binaries.h"
 #include "upload.h"
 
@@ -39,7 +40,9 @@ bool has_device() {
     return false;
 }
 
-VulkanOptions test_options() { return {.device = "", .validation = has_validation_layer()}; }
+VulkanOptions test_options() {
+    return {.device = "", .validation = has_validation_layer()};
+}
 
 void check_no_validation_messages() {
     for (const std::string& message : validation_messages()) {
@@ -50,15 +53,17 @@ void check_no_validation_messages() {
     clear_validation_messages();
 }
 
-std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays) {
+std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays,
+                                  const BuildLimits& limits) {
     const Gpu gpu = open_gpu("", test_options().validation);
     const SceneMemory scene = upload_scene(gpu, packed);
-    const BottomLevels bottom = build_bottom_levels(gpu, packed, scene);
+    const BottomLevels bottom = build_bottom_levels(gpu, packed, scene, limits);
     const TopLevel top = build_top_level(gpu, packed, bottom);
     const FilmMemory film = make_film(gpu, static_cast<int>(rays.size()), 1, shared::FEATURE_FIRST_HIT_LAYERS);
     Uploader uploader(gpu);
-    const Buffer ray_buffer = upload_array(gpu, uploader, "rays", std::span(rays),
-                                           vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eShaderDeviceAddress);
+    const Buffer ray_buffer =
+        upload_array(gpu, uploader, "rays", std::span(rays),
+                     vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eShaderDeviceAddress);
     uploader.finish();
     SceneAddresses addresses = scene_addresses(scene);
     enter_film(addresses, film);
@@ -66,8 +71,8 @@ std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<s
     const PipelineLayout layout = make_pipeline_layout(gpu);
     const vk::raii::PipelineCache cache = open_pipeline_cache(gpu, {});
     const bool alpha = (packed.features & shared::FEATURE_ALPHA) != 0;
-    const TracePipeline pipeline =
-        make_pipeline(gpu, layout, cache, scene_shaders(test_shader_binary("trace_rays.rgen"), alpha), packed.features, false);
+    const TracePipeline pipeline = make_pipeline(
+        gpu, layout, cache, scene_shaders(test_shader_binary("trace_rays.rgen"), alpha), packed.features, false);
     const Bindings bindings = make_bindings(gpu, layout, *top.structure, addresses, packed.constants);
     run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
         record_dispatch(commands, pipeline, layout, bindings, {}, static_cast<std::uint32_t>(rays.size()), 1);
@@ -85,8 +90,12 @@ std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<s
     return traced;
 }
 
-void add_geometry(PackedScene& packed, const std::vector<shared::vec3>& positions, const std::vector<shared::uvec3>& triangles,
-                  std::uint32_t material) {
+PackedScene generated_scene(const std::string& name, const RenderSettings& settings) {
+    return pack_scene(generate_scene(name).scene, settings);
+}
+
+void add_geometry(PackedScene& packed, const std::vector<shared::vec3>& positions,
+                  const std::vector<shared::uvec3>& triangles, std::uint32_t material) {
     shared::Geometry geometry{};
     geometry.first_triangle = static_cast<std::uint32_t>(packed.triangles.size());
     geometry.first_vertex = static_cast<std::uint32_t>(packed.positions.size());
@@ -132,7 +141,8 @@ PackedScene random_scene(std::uint32_t seed, std::uint32_t meshes, std::uint32_t
     material.emission_slot = material.specular_slot = material.specular_color_slot = shared::NONE;
     packed.materials.push_back(material);
     for (std::uint32_t mesh = 0; mesh < meshes; ++mesh) {
-        packed.meshes.push_back({.first_geometry = static_cast<std::uint32_t>(packed.geometries.size()), .geometry_count = 0});
+        packed.meshes.push_back(
+            {.first_geometry = static_cast<std::uint32_t>(packed.geometries.size()), .geometry_count = 0});
         for (std::uint32_t geometry = 0; geometry < 1 + mesh % 3; ++geometry) {
             std::vector<shared::vec3> positions;
             std::vector<shared::uvec3> indices;

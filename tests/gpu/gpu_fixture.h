@@ -5,8 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "catch.h"
 #include "../../shaders/dispatch.h"
+#include "acceleration.h"
+#include "catch.h"
 #include "hit.h"
 #include "pack/packed_scene.h"
 #include "vulkan_renderer.h"
@@ -28,24 +29,29 @@ struct TracedRay {
 };
 
 /// Traces closest and any hits on the device.
-std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays);
+std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays,
+                                  const BuildLimits& limits = {});
 
-/// Meshes of a few primitives each, placed by random transforms: every second mirrored, all non-uniform. One grey material.
+/// A generated scene, packed.
+PackedScene generated_scene(const std::string& name, const RenderSettings& settings);
+
+/// Meshes of a few primitives each, placed by random transforms: every second mirrored, all non-uniform. One grey
+/// material.
 PackedScene random_scene(std::uint32_t seed, std::uint32_t meshes, std::uint32_t instances, std::uint32_t triangles);
 
 /// Adds an instance of a mesh.
 void add_instance(PackedScene& packed, std::uint32_t mesh, const glm::mat4x3& object_to_world);
 
 /// Adds a geometry to the last mesh.
-void add_geometry(PackedScene& packed, const std::vector<shared::vec3>& positions, const std::vector<shared::uvec3>& triangles,
-                  std::uint32_t material);
+void add_geometry(PackedScene& packed, const std::vector<shared::vec3>& positions,
+                  const std::vector<shared::uvec3>& triangles, std::uint32_t material);
 
 }  // namespace diptych::tests
 
 /// Leaves the test case where there is no device.
-#define NEED_DEVICE()                                                                             \
-    do {                                                                                          \
-        if (!diptych::tests::has_device()) {                                                      \
-            SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 has one");     \
-        }                                                                                         \
+#define NEED_DEVICE()                                                                                                  \
+    do {                                                                                                               \
+        if (!diptych::tests::has_device()) {                                                                           \
+            SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 has one");                          \
+        }                                                                                                              \
     } while (false)

@@ -1,0 +1,157 @@
+// Offsets of every shared struct, as the SPIR-V has them and as C++ has them.
+#include <map>
+#include <string>
+
+#include "../../shaders/dispatch.h"
+#include "catch.h"
+#include "film_pixel.h"
+#include "scene_addresses.h"
+#include "scene_types.h"
+#include "shader_binaries.h"
+
+namespace diptych::tests {
+namespace {
+
+struct Layouts {
+    std::map<std::string, std::map<std::string, std::uint32_t>> offsets;  // struct -> field -> bytes
+    std::map<std::string, std::uint32_t> strides;                         // element struct of a run-time array -> bytes
+};
+
+std::string text_at(std::span<const std::uint32_t> words) {
+    return reinterpret_cast<const char*>(words.data());
+}
+
+// SPIR-V 1.5, sections 2.3 and 3.32: only what names and decorates members and arrays.
+Layouts read_layouts(std::span<const std::uint32_t> spirv) {
+    constexpr std::uint32_t op_name = 5;
+    constexpr std::uint32_t op_member_name = 6;
+    constexpr std::uint32_t op_type_runtime_array = 29;
+    constexpr std::uint32_t op_decorate = 71;
+    constexpr std::uint32_t op_member_decorate = 72;
+    constexpr std::uint32_t array_stride = 6;
+    constexpr std::uint32_t offset = 35;
+    std::map<std::uint32_t, std::string> names;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> member_names;
+    std::map<std::uint32_t, std::uint32_t> strides;
+    Layouts layouts;
+    for (std::size_t at = 5; at < spirv.size(); at += spirv[at] >> 16U) {
+        const auto words = spirv.subspan(at, spirv[at] >> 16U);
+        const std::uint32_t op = words[0] & 0xffffU;
+        if (op == op_name) {
+            names[words[1]] = text_at(words.subspan(2));
+        } else if (op == op_member_name) {
+            member_names[{words[1], words[2]}] = text_at(words.subspan(3));
+        } else if (op == op_member_decorate && words[3] == offset) {
+            layouts.offsets[names[words[1]]][member_names[{words[1], words[2]}]] = words[4];
+        } else if (op == op_decorate && words[2] == array_stride) {
+            strides[words[1]] = words[3];
+        } else if (op == op_type_runtime_array) {
+            layouts.strides[names[words[2]]] = strides[words[1]];
+        }
+    }
+    return layouts;
+}
+
+using Offsets = std::map<std::string, std::uint32_t>;
+#define FIELD(Type, name)                                                                                              \
+    { #name, static_cast < std::uint32_t>(offsetof(shared::Type, name)) }
+
+// Every field of every struct on the bus.
+std::map<std::string, Offsets> cpp_offsets() {
+    return {
+        {"Instance",
+         {FIELD(Instance, row_0), FIELD(Instance, row_1), FIELD(Instance, row_2), FIELD(Instance, first_geometry),
+          FIELD(Instance, first_emitter_slot), FIELD(Instance, mirrored)}},
+        {"Geometry",
+         {FIELD(Geometry, first_triangle), FIELD(Geometry, first_vertex), FIELD(Geometry, first_normal),
+          FIELD(Geometry, first_tangent), FIELD(Geometry, first_uv_0), FIELD(Geometry, first_uv_1),
+          FIELD(Geometry, first_color), FIELD(Geometry, material)}},
+        {"Material",
+         {FIELD(Material, base_color), FIELD(Material, emission), FIELD(Material, metallic),
+          FIELD(Material, specular_color), FIELD(Material, roughness), FIELD(Material, specular), FIELD(Material, f0),
+          FIELD(Material, normal_scale), FIELD(Material, alpha_cutoff), FIELD(Material, flags),
+          FIELD(Material, base_color_slot), FIELD(Material, metallic_roughness_slot), FIELD(Material, normal_slot),
+          FIELD(Material, emission_slot), FIELD(Material, specular_slot), FIELD(Material, specular_color_slot)}},
+        {"TextureSlot",
+         {FIELD(TextureSlot, first_texel), FIELD(TextureSlot, width), FIELD(TextureSlot, height),
+          FIELD(TextureSlot, flags), FIELD(TextureSlot, u_row), FIELD(TextureSlot, v_row)}},
+        {"EmissiveTriangle",
+         {FIELD(EmissiveTriangle, vertex_0), FIELD(EmissiveTriangle, pmf), FIELD(EmissiveTriangle, edge_1),
+          FIELD(EmissiveTriangle, flags), FIELD(EmissiveTriangle, edge_2), FIELD(EmissiveTriangle, geometry),
+          FIELD(EmissiveTriangle, radiance), FIELD(EmissiveTriangle, primitive)}},
+        {"PunctualLight",
+         {FIELD(PunctualLight, position), FIELD(PunctualLight, type), FIELD(PunctualLight, direction),
+          FIELD(PunctualLight, pmf), FIELD(PunctualLight, intensity), FIELD(PunctualLight, cone_scale),
+          FIELD(PunctualLight, cone_offset)}},
+        {"AliasEntry", {FIELD(AliasEntry, probability), FIELD(AliasEntry, alias)}},
+        {"Camera",
+         {FIELD(Camera, origin), FIELD(Camera, kind), FIELD(Camera, right), FIELD(Camera, lens_radius),
+          FIELD(Camera, up), FIELD(Camera, focus_distance), FIELD(Camera, forward)}},
+        {"Environment",
+         {FIELD(Environment, scale), FIELD(Environment, kind), FIELD(Environment, rotation), FIELD(Environment, size),
+          FIELD(Environment, pmf)}},
+        {"RenderConstants",
+         {FIELD(RenderConstants, camera), FIELD(RenderConstants, environment), FIELD(RenderConstants, size),
+          FIELD(RenderConstants, seed), FIELD(RenderConstants, sampler_kind), FIELD(RenderConstants, sample_count),
+          FIELD(RenderConstants, max_depth), FIELD(RenderConstants, integrator), FIELD(RenderConstants, brdf),
+          FIELD(RenderConstants, mis), FIELD(RenderConstants, light_count),
+          FIELD(RenderConstants, emissive_triangle_count), FIELD(RenderConstants, punctual_light_count)}},
+        {"FilmPixel",
+         {FIELD(FilmPixel, sum), FIELD(FilmPixel, compensation), FIELD(FilmPixel, samples), FIELD(FilmPixel, nonfinite),
+          FIELD(FilmPixel, rays)}},
+        {"FilmMoments", {FIELD(FilmMoments, first), FIELD(FilmMoments, sum_squares), FIELD(FilmMoments, compensation)}},
+        {"FilmFirstHit", {FIELD(FilmFirstHit, albedo), FIELD(FilmFirstHit, normal), FIELD(FilmFirstHit, depth)}},
+        {"Dispatch",
+         {FIELD(Dispatch, origin), FIELD(Dispatch, first_sample), FIELD(Dispatch, sample_count),
+          FIELD(Dispatch, first_lane), FIELD(Dispatch, lane_count), FIELD(Dispatch, ray_capacity),
+          FIELD(Dispatch, first_ray)}},
+        {"RecordedRay",
+         {FIELD(RecordedRay, origin), FIELD(RecordedRay, t_max), FIELD(RecordedRay, direction),
+          FIELD(RecordedRay, alpha_key)}},
+        {"RayCounters", {FIELD(RayCounters, recorded), FIELD(RayCounters, dropped), FIELD(RayCounters, hits)}},
+    };
+}
+
+Offsets address_offsets() {
+    Offsets offsets;
+#define ADD_OFFSET(Type, name) offsets[#name] = static_cast<std::uint32_t>(offsetof(SceneAddresses, name));
+    SCENE_BUFFERS(ADD_OFFSET)
+#undef ADD_OFFSET
+    offsets["film_pixels"] = offsetof(SceneAddresses, film_pixels);
+    offsets["film_moments"] = offsetof(SceneAddresses, film_moments);
+    offsets["film_first_hits"] = offsetof(SceneAddresses, film_first_hits);
+    offsets["recorded_rays"] = offsetof(SceneAddresses, recorded_rays);
+    offsets["ray_counters"] = offsetof(SceneAddresses, ray_counters);
+    return offsets;
+}
+
+}  // namespace
+
+TEST_CASE("Shared structs lie in memory as the shaders see them") {
+    const Layouts layouts = read_layouts(shader_binary("path.rgen"));
+    for (const auto& [name, offsets] : cpp_offsets()) {
+        CAPTURE(name);
+        const auto found = layouts.offsets.find(name);
+        REQUIRE(found != layouts.offsets.end());
+        CHECK(found->second == offsets);
+    }
+    CHECK(layouts.offsets.at("SceneAddresses") == address_offsets());
+}
+
+TEST_CASE("Arrays of shared structs have the stride of their size") {
+    const Layouts layouts = read_layouts(shader_binary("path.rgen"));
+#define CHECK_STRIDE(Type) CHECK(layouts.strides.at(#Type) == sizeof(shared::Type))
+    CHECK_STRIDE(Instance);
+    CHECK_STRIDE(Geometry);
+    CHECK_STRIDE(Material);
+    CHECK_STRIDE(TextureSlot);
+    CHECK_STRIDE(EmissiveTriangle);
+    CHECK_STRIDE(PunctualLight);
+    CHECK_STRIDE(AliasEntry);
+    CHECK_STRIDE(FilmPixel);
+    CHECK_STRIDE(FilmMoments);
+    CHECK_STRIDE(FilmFirstHit);
+    CHECK_STRIDE(RecordedRay);
+}
+
+}  // namespace diptych::tests
