@@ -15,11 +15,15 @@ struct Surface {
 };
 
 FN vec3 transform_vector(IN(Instance) i, vec3 v) {
-    return vec3(dot(xyz(i.row_0), v), dot(xyz(i.row_1), v), dot(xyz(i.row_2), v));
+    PRECISE vec3 w = vec3(i.row_0.x * v.x + i.row_0.y * v.y + i.row_0.z * v.z,
+                          i.row_1.x * v.x + i.row_1.y * v.y + i.row_1.z * v.z,
+                          i.row_2.x * v.x + i.row_2.y * v.y + i.row_2.z * v.z);
+    return w;
 }
 
 FN vec3 transform_point(IN(Instance) i, vec3 p) {
-    return transform_vector(i, p) + vec3(i.row_0.w, i.row_1.w, i.row_2.w);
+    PRECISE vec3 q = transform_vector(i, p) + vec3(i.row_0.w, i.row_1.w, i.row_2.w);
+    return q;
 }
 
 /// Normals go by the cofactor matrix, the inverse transpose up to a positive factor once a mirrored instance's sign is put back.
@@ -29,6 +33,12 @@ FN vec3 transform_normal(IN(Instance) i, vec3 n) {
     vec3 r2 = xyz(i.row_2);
     vec3 m = vec3(dot(cross(r1, r2), n), dot(cross(r2, r0), n), dot(cross(r0, r1), n));
     return i.mirrored != 0u ? -m : m;
+}
+
+/// a x b, without contraction: what is 0 on one backend is 0 on the other.
+FN vec3 exact_cross(vec3 a, vec3 b) {
+    PRECISE vec3 n = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return n;
 }
 
 /// v / |v|, or the fallback where v has no direction.
@@ -50,7 +60,7 @@ FN Surface load_surface(IN(Hit) hit, IN(Instance) instance, vec3 wo) {
     vec3 c = load_positions(g.first_vertex + s.mesh.triangle.z);
     PRECISE vec3 local = a + hit.barycentrics.x * (b - a) + hit.barycentrics.y * (c - a);
     s.position = transform_point(instance, local);
-    vec3 n = cross(transform_vector(instance, b - a), transform_vector(instance, c - a));
+    vec3 n = exact_cross(transform_vector(instance, b - a), transform_vector(instance, c - a));
     s.normal = normalize_or(instance.mirrored != 0u ? -n : n, wo);
     s.instance = hit.instance;
     s.primitive = hit.primitive;
