@@ -12,8 +12,9 @@ struct Dispatch {
     uint first_sample;
     uint sample_count;
     uint first_lane;     // of this dispatch's first pixel; a lane is one path
-    uint lane_count;     // of all dispatches; ray k of a lane is at k * lane_count + lane
-    uint ray_capacity;   // rays a lane can keep
+    uint lane_count;     // of all dispatches; a lane's k-th closest-hit ray is at k * lane_count + lane, its
+                         // k-th any-hit ray at (ray_capacity + k) * lane_count + lane
+    uint ray_capacity;   // rays of each kind that a lane can keep
     uint first_ray;      // of this dispatch, when recorded rays are traced again
 };
 ASSERT_SIZE(Dispatch, 32);

@@ -14,22 +14,25 @@ layout(set = 0, binding = 0) uniform accelerationStructureEXT scene_structure;
 layout(location = CLOSEST_PAYLOAD) rayPayloadEXT Hit closest_payload;
 layout(location = SHADOW_PAYLOAD) rayPayloadEXT ShadowPayload shadow_payload;
 
-uint recorded_count = 0u;
+uint recorded_counts[2] = uint[2](0u, 0u);  // closest, any
 
 void record_ray(vec3 origin, vec3 direction, float t_max, uint alpha_key) {
+    uint kind = t_max < 0.0f ? 0u : 1u;
+    uint place = recorded_counts[kind];
     uint lane = dispatch_block.value.first_lane + gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x;
-    if (recorded_count < dispatch_block.value.ray_capacity) {
+    if (place < dispatch_block.value.ray_capacity) {
         RecordedRay ray;
         ray.origin = origin;
         ray.t_max = t_max;
         ray.direction = direction;
         ray.alpha_key = alpha_key;
-        addresses.recorded_rays.data[recorded_count * dispatch_block.value.lane_count + lane] = ray;
+        uint row = kind * dispatch_block.value.ray_capacity + place;
+        addresses.recorded_rays.data[row * dispatch_block.value.lane_count + lane] = ray;
         atomicAdd(addresses.ray_counters.data.recorded, 1u);
     } else {
         atomicAdd(addresses.ray_counters.data.dropped, 1u);
     }
-    recorded_count += 1u;
+    recorded_counts[kind] = place + 1u;
 }
 
 uint opacity_flags() { return feature(FEATURE_ALPHA) ? gl_RayFlagsNoneEXT : gl_RayFlagsOpaqueEXT; }

@@ -1,8 +1,7 @@
 #include "film_memory.h"
 
-#include <cstring>
-
 #include "commands.h"
+#include "readback.h"
 #include "scene_features.h"
 
 namespace diptych {
@@ -15,25 +14,6 @@ Buffer layer(const Gpu& gpu, std::uint64_t count) {
     return make_buffer(gpu, "the film", count * sizeof(T),
                        Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferSrc | Usage::eTransferDst,
                        MemoryKind::device);
-}
-
-template <typename T>
-std::vector<T> read_layer(const Gpu& gpu, const Buffer& buffer) {
-    std::vector<T> elements(buffer.size / sizeof(T));
-    if (elements.empty()) {
-        return elements;
-    }
-    const Buffer host = make_buffer(gpu, "reading the film", buffer.size, Usage::eTransferDst, MemoryKind::readback);
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        full_barrier(commands);
-        commands.copyBuffer(*buffer.handle, *host.handle, vk::BufferCopy{.size = buffer.size});
-        const vk::MemoryBarrier to_host{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
-                                        .dstAccessMask = vk::AccessFlagBits::eHostRead};
-        commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, to_host,
-                                 {}, {});
-    });
-    std::memcpy(elements.data(), host.mapped, buffer.size);
-    return elements;
 }
 
 }  // namespace
@@ -71,9 +51,9 @@ Film read_film(const Gpu& gpu, const FilmMemory& film) {
     Film host;
     host.width = film.width;
     host.height = film.height;
-    host.pixels = read_layer<shared::FilmPixel>(gpu, film.pixels);
-    host.moments = read_layer<shared::FilmMoments>(gpu, film.moments);
-    host.first_hits = read_layer<shared::FilmFirstHit>(gpu, film.first_hits);
+    host.pixels = read_array<shared::FilmPixel>(gpu, film.pixels);
+    host.moments = read_array<shared::FilmMoments>(gpu, film.moments);
+    host.first_hits = read_array<shared::FilmFirstHit>(gpu, film.first_hits);
     return host;
 }
 

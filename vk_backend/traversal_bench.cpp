@@ -1,9 +1,10 @@
 #include <algorithm>
-#include <cstring>
 #include <vector>
 
 #include "path_renderer.h"
+#include "readback.h"
 #include "shader_binaries.h"
+#include "upload.h"
 
 namespace diptych {
 namespace {
@@ -22,11 +23,11 @@ double median(std::vector<double> values) {
 struct Block {
     Region region;
     std::uint32_t samples = 0;
-    std::uint32_t capacity = 0;  // rays a path
+    std::uint32_t capacity = 0;  // rays of each kind a path
 
     std::uint64_t paths_per_sample() const { return std::uint64_t{region.width} * region.height; }
     std::uint64_t paths() const { return paths_per_sample() * samples; }
-    std::uint64_t rays() const { return paths() * capacity; }
+    std::uint64_t rays() const { return paths() * capacity * 2; }
 };
 
 Block choose_block(const Gpu& gpu, shared::uvec2 size, std::uint32_t samples, std::uint32_t capacity) {
@@ -34,7 +35,7 @@ Block choose_block(const Gpu& gpu, shared::uvec2 size, std::uint32_t samples, st
     for (std::uint32_t i = 0; i < gpu.memory.memoryHeapCount; ++i) {
         device_bytes = std::max(device_bytes, gpu.memory.memoryHeaps[i].size);
     }
-    const std::uint64_t path_bytes = std::uint64_t{capacity} * sizeof(shared::RecordedRay);
+    const std::uint64_t path_bytes = std::uint64_t{capacity} * 2 * sizeof(shared::RecordedRay);
     const std::uint64_t paths = std::min(most_ray_bytes, device_bytes / 4) / path_bytes;
     const std::uint64_t pixels = std::uint64_t{size.x} * size.y;
     Block block{.region = {0, 0, size.x, size.y}, .samples = 1, .capacity = capacity};
@@ -47,11 +48,10 @@ Block choose_block(const Gpu& gpu, shared::uvec2 size, std::uint32_t samples, st
     return block;
 }
 
-// Device buffers of the bench; the counters are read back through `host`.
+// The bench's own buffers.
 struct RayMemory {
     Buffer rays;
     Buffer counters;
-    Buffer host;
 };
 
 RayMemory make_ray_memory(const Gpu& gpu, const Block& block) {
@@ -61,8 +61,6 @@ RayMemory make_ray_memory(const Gpu& gpu, const Block& block) {
     memory.rays =
         make_buffer(gpu, "recorded rays", block.rays() * sizeof(shared::RecordedRay), usage, MemoryKind::device);
     memory.counters = make_buffer(gpu, "ray counters", sizeof(shared::RayCounters), usage, MemoryKind::device);
-    memory.host =
-        make_buffer(gpu, "ray counters", sizeof(shared::RayCounters), Usage::eTransferDst, MemoryKind::readback);
     run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
         commands.fillBuffer(*memory.rays.handle, 0, VK_WHOLE_SIZE, 0);
         commands.fillBuffer(*memory.counters.handle, 0, VK_WHOLE_SIZE, 0);
@@ -71,18 +69,15 @@ RayMemory make_ray_memory(const Gpu& gpu, const Block& block) {
     return memory;
 }
 
-shared::RayCounters read_counters(const Gpu& gpu, const RayMemory& memory) {
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        full_barrier(commands);
-        commands.copyBuffer(*memory.counters.handle, *memory.host.handle, vk::BufferCopy{.size = memory.counters.size});
-        const vk::MemoryBarrier to_host{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
-                                        .dstAccessMask = vk::AccessFlagBits::eHostRead};
-        commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, to_host,
-                                 {}, {});
-    });
-    shared::RayCounters counters{};
-    std::memcpy(&counters, memory.host.mapped, sizeof(counters));
-    return counters;
+// Leaves the rays that were recorded and no gaps: closest hits before any hits, earlier bounces before later ones. So
+// neighbours do the same, and nothing but their traversal is timed. Returns how many there are.
+std::uint64_t close_gaps(const Gpu& gpu, const RayMemory& memory) {
+    std::vector<shared::RecordedRay> rays = read_array<shared::RecordedRay>(gpu, memory.rays);
+    std::erase_if(rays, [](const shared::RecordedRay& ray) { return ray.t_max == 0.0F; });
+    Uploader uploader(gpu);
+    uploader.upload(memory.rays, std::as_bytes(std::span(rays)));
+    uploader.finish();
+    return rays.size();
 }
 
 // Runs pipelines over a block, in slices, and times them.
@@ -119,13 +114,13 @@ struct Runner {
         return queue.seconds();
     }
 
-    double trace_again(const TracePipeline& pipeline, const Bindings& bindings) const {
+    double trace_again(const TracePipeline& pipeline, const Bindings& bindings, std::uint64_t rays) const {
         SpeedEstimate speed;
         TimedQueue queue(gpu, [&](std::uint64_t work, double seconds) { speed.learn(work, seconds); });
         const std::uint64_t limit = gpu.ray_tracing.maxRayDispatchInvocationCount;
         std::uint64_t ray = 0;
-        while (ray < block.rays()) {
-            const std::uint64_t count = std::min({block.rays() - ray, speed.budget(), limit});
+        while (ray < rays) {
+            const std::uint64_t count = std::min({rays - ray, speed.budget(), limit});
             shared::Dispatch dispatch{};
             dispatch.first_ray = static_cast<std::uint32_t>(ray);
             queue.submit(count, [&](const vk::raii::CommandBuffer& commands) {
@@ -145,7 +140,7 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
         const TracePipeline recording = compile(shader_binary("path.rgen"), true);
         const TracePipeline bare = compile(shader_binary("bare.rgen"), false);
         const FilmMemory film = make_film(*gpu_, film_.width, film_.height, features_);
-        std::uint32_t capacity = std::min(constants_.max_depth, 31U) * 2 + 2;
+        std::uint32_t capacity = std::min(constants_.max_depth, 31U) + 2;
         while (true) {
             const Block block = choose_block(*gpu_, constants_.size, samples, capacity);
             const RayMemory memory = make_ray_memory(*gpu_, block);
@@ -157,19 +152,20 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
             warm_up(bare, bindings);
             const Runner runner{.gpu = *gpu_, .layout = layout_, .block = block};
             runner.integrate(recording, bindings, true);
-            const shared::RayCounters counters = read_counters(*gpu_, memory);
+            const shared::RayCounters counters = read_array<shared::RayCounters>(*gpu_, memory.counters).front();
             if (counters.dropped > 0) {
                 capacity *= 2;
                 continue;
             }
+            const std::uint64_t rays = close_gaps(*gpu_, memory);
             std::vector<double> integrator;
             std::vector<double> traversal;
             for (int i = 0; i < repeats; ++i) {
                 integrator.push_back(runner.integrate(path_, bindings, false));
-                traversal.push_back(runner.trace_again(bare, bindings));
+                traversal.push_back(runner.trace_again(bare, bindings, rays));
             }
             return TraversalBench{
-                .rays = counters.recorded, .integrator_seconds = median(integrator), .bare_seconds = median(traversal)};
+                .rays = rays, .integrator_seconds = median(integrator), .bare_seconds = median(traversal)};
         }
     });
 }
