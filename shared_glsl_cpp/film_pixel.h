@@ -1,4 +1,4 @@
-// What a pixel keeps. Sums are compensated (Neumaier 1974), so that they hold beyond 10^7 samples in fp32, and squares are taken
+// What a pixel keeps. Sums are pairs of floats (Dekker 1971), so that they hold beyond 10^7 samples in fp32, and squares are taken
 // about the pixel's first sample, so that the variance of a constant pixel is exactly zero.
 #ifndef FILM_PIXEL_H
 #define FILM_PIXEL_H
@@ -40,15 +40,20 @@ struct FirstHit {
     float depth;
 };
 
-/// sum + compensation += x, componentwise.
+/// sum + compensation += x, componentwise. What the sum loses is carried over, and the pair is normalised, so that the
+/// compensation stays below half an ulp of the sum: left to grow, it would round like any fp32 sum.
 FN void compensated_add(INOUT(vec3) sum, INOUT(vec3) compensation, vec3 x) {
     PRECISE vec3 t = sum + x;
     PRECISE vec3 from_sum = (sum - t) + x;
     PRECISE vec3 from_x = (x - t) + sum;
-    compensation.x += abs(sum.x) >= abs(x.x) ? from_sum.x : from_x.x;
-    compensation.y += abs(sum.y) >= abs(x.y) ? from_sum.y : from_x.y;
-    compensation.z += abs(sum.z) >= abs(x.z) ? from_sum.z : from_x.z;
-    sum = t;
+    PRECISE vec3 low = compensation;
+    low.x += abs(sum.x) >= abs(x.x) ? from_sum.x : from_x.x;
+    low.y += abs(sum.y) >= abs(x.y) ? from_sum.y : from_x.y;
+    low.z += abs(sum.z) >= abs(x.z) ? from_sum.z : from_x.z;
+    PRECISE vec3 high = t + low;
+    PRECISE vec3 rest = low - (high - t);
+    sum = high;
+    compensation = rest;
 }
 
 /// NaN, infinity or negative, by the bits: a compiler may fold `isnan` away.
