@@ -1,0 +1,61 @@
+// Film sums: what is dropped, and how they hold over ten million samples.
+#include <random>
+
+#include "film_pixel.h"
+#include "render_fixture.h"
+
+using namespace diptych;
+using namespace diptych::tests;
+
+TEST_CASE("The film drops and counts what is no radiance") {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    shared::FilmPixel pixel{};
+    for (const float bad : {nan, -nan, infinity, -infinity, -1.0F, -1e-40F}) {
+        for (int c = 0; c < 3; ++c) {
+            shared::vec3 radiance(1);
+            radiance[c] = bad;
+            CHECK_FALSE(shared::film_add(pixel, radiance, 2));
+        }
+    }
+    CHECK(pixel.nonfinite == 18);
+    CHECK(pixel.samples == 0);
+    CHECK(pixel.rays == 36);
+    CHECK(pixel.sum == shared::vec3(0));
+    CHECK(shared::film_add(pixel, shared::vec3(-0.0F, 1e-40F, 3e38F), 1));
+    CHECK(pixel.samples == 1);
+    CHECK(pixel.rays == 37);
+}
+
+TEST_CASE("Film sums hold over ten million samples") {
+    constexpr std::uint32_t n = 10'000'000;
+    shared::FilmPixel pixel{};
+    shared::FilmMoments moments{};
+    std::mt19937 random(5);
+    double sum = 0;
+    double squares = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const float x = static_cast<float>(random() >> 8) * 0x1p-24F;
+        const float heavy = x < 1e-4F ? 1e4F * (1 + x) : 0.01F * x;
+        const shared::vec3 radiance(0.1F, x, heavy);
+        if (shared::film_add(pixel, radiance, 1)) {
+            shared::film_add_moments(moments, radiance, pixel.samples);
+        }
+        sum += static_cast<double>(x);
+        squares += static_cast<double>(x) * x;
+    }
+    const Rgb mean = pixel_mean(pixel);
+    CHECK(pixel.samples == n);
+    CHECK(mean[0] == Approx(static_cast<double>(0.1F)).epsilon(1e-7));
+    CHECK(mean[1] == Approx(sum / n).epsilon(1e-7));
+    const Rgb error = pixel_standard_error(pixel, moments);
+    CHECK(error[0] == 0);
+    const double variance = (squares - sum * sum / n) / (n - 1.0);
+    CHECK(error[1] == Approx(std::sqrt(variance / n)).epsilon(1e-5));
+    // What plain single precision makes of it, so that this test is known to be one.
+    float naive = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        naive += 0.1F;
+    }
+    CHECK(std::abs(naive / static_cast<float>(n) - 0.1F) > 1e-4F);
+}

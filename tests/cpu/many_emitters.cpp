@@ -1,0 +1,44 @@
+// Scenes of very many lights still pack and render.
+#include <chrono>
+#include <cstdio>
+
+#include "render_fixture.h"
+#include "scene/generate.h"
+
+using namespace diptych;
+using namespace diptych::tests;
+
+namespace {
+
+void check_street(std::uint64_t count, double seconds_allowed) {
+    using Clock = std::chrono::steady_clock;
+    GenerateOptions options;
+    options.count = count;
+    const Scene scene = generate_scene("many-lights", options).scene;
+    const Clock::time_point start = Clock::now();
+    RenderSettings settings = statistical_settings(32, 18, Integrator::path, 4);
+    const PackedScene packed = pack_scene(scene, settings);
+    CHECK(packed.constants.light_count >= count);
+    CHECK(packed.emissive_triangles.size() >= count);
+    // 64 bytes for the light, 8 for its table entry, and its geometry: some 200 in all.
+    CHECK(buffer_bytes(packed) < 400 * count + 50'000'000);
+    const auto renderer = make_cpu_renderer(packed, 2);
+    const std::atomic<bool> cancel{false};
+    renderer->render(0, 4, cancel);
+    const Film film = renderer->film();
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    std::printf("many-lights %llu: packed, built and rendered in %.2f s, %.0f MB of buffers\n",
+                static_cast<unsigned long long>(count), seconds, static_cast<double>(buffer_bytes(packed)) / 1e6);
+    CHECK(film_totals(film).nonfinite == 0);
+    CHECK(image_mean(film).mean[0] > 0);
+    CHECK(seconds < seconds_allowed);
+    double sum = 0;
+    for (const shared::EmissiveTriangle& light : packed.emissive_triangles) {
+        sum += static_cast<double>(light.pmf);
+    }
+    CHECK(sum == Approx(1).epsilon(1e-4));
+}
+
+}  // namespace
+
+TEST_CASE("A street of a million lights packs and renders") { check_street(1'000'000, 60); }
