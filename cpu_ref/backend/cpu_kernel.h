@@ -48,15 +48,16 @@ struct RecordingTracer {
 
 namespace shared {
 
-/// The hooks of hooks.md, and the integrators as members.
-template <class Tracer>
+/// The hooks of hooks.md, and the integrators as members. Code behind features outside ALLOWED is left out; the scene must not need
+/// them.
+template <class Tracer, uint ALLOWED>
 struct CpuKernel {
     const PackedScene& packed;
     const RenderConstants& constants;
     Tracer tracer;
 
-    bool feature(uint bit) const { return (packed.features & bit) != 0; }
-    uint features() const { return packed.features; }
+    bool feature(uint bit) const { return (features() & bit) != 0; }
+    uint features() const { return packed.features & ALLOWED; }
 
 #define DEFINE_LOAD(Type, name)                 \
     const Type& load_##name(uint index) const { \

@@ -17,6 +17,11 @@ constexpr int tile_size = 16;
 // Samples of a pixel taken in one go: long enough to keep its film in registers, short enough to hear a cancel.
 constexpr std::uint32_t samples_a_slice = 16;
 
+// Scenes that need no more than these get a kernel of their own, compiled without the rest.
+constexpr std::uint32_t plain_features = shared::FEATURE_EMISSIVE | shared::FEATURE_CONSTANT_ENVIRONMENT |
+                                         shared::FEATURE_GGX | shared::FEATURE_STANDARD_ERROR |
+                                         shared::FEATURE_FIRST_HIT_LAYERS | shared::FEATURE_LIGHT_SAMPLING;
+
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -92,12 +97,25 @@ private:
     }
 
     void accumulate(Film& film, std::uint32_t first, std::uint32_t count, const std::atomic<bool>* cancel) const {
+        const bool plain = (packed_.features & ~plain_features) == 0;
         for_tiles([&](int x, int y) {
-            if (cancel == nullptr || !*cancel) {
-                shared::CpuKernel<PlainTracer> kernel{packed_, packed_.constants, {*scene_}};
+            if (cancel != nullptr && *cancel) {
+                return;
+            }
+            if (plain) {
+                accumulate_plain_tile(film, x, y, first, count);
+            } else {
+                shared::CpuKernel<PlainTracer, ~0U> kernel{packed_, packed_.constants, {*scene_}};
                 accumulate_tile(kernel, film, x, y, first, count);
             }
         });
+    }
+
+    /// One function with everything inlined, so that what a path carries along stays in registers.
+    [[gnu::flatten]] void accumulate_plain_tile(Film& film, int tile_x, int tile_y, std::uint32_t first,
+                                                std::uint32_t count) const {
+        shared::CpuKernel<PlainTracer, plain_features> kernel{packed_, packed_.constants, {*scene_}};
+        accumulate_tile(kernel, film, tile_x, tile_y, first, count);
     }
 
     const PackedScene& packed_;
@@ -119,7 +137,7 @@ TraversalBench CpuRenderer::bench_traversal(std::uint32_t samples) {
     };
     Film scratch = film_;
     for_tiles([&](int x, int y) {
-        shared::CpuKernel<RecordingTracer> kernel{packed_, packed_.constants, {*scene_, of_tile(x, y)}};
+        shared::CpuKernel<RecordingTracer, ~0U> kernel{packed_, packed_.constants, {*scene_, of_tile(x, y)}};
         accumulate_tile(kernel, scratch, x, y, 0, samples);
     });
 
