@@ -33,7 +33,7 @@ trap unmount EXIT
 if [ ! -e "$chroot_dir/etc/debian_version" ]; then
     mirror="$(apt-get indextargets 'Created-By: Packages' 'Origin: Debian' 'Component: main' --format '$(REPO_URI)' |
         grep -v security | head -n 1)"
-    debootstrap --variant=minbase "$suite" "$chroot_dir" "${mirror:?no Debian mirror in the machine's apt sources}"
+    debootstrap --variant=minbase "$suite" "$chroot_dir" "${mirror:?no Debian mirror among the apt sources}"
 fi
 cp -L /etc/resolv.conf /etc/hosts "$chroot_dir/etc/"
 grep -lsE '^ *Acquire::' /etc/apt/apt.conf.d/* /etc/apt/apt.conf 2>/dev/null |
