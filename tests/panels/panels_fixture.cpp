@@ -1,0 +1,82 @@
+#include "panels_fixture.h"
+
+#include <cstdlib>
+
+#include "devices.h"
+#include "error.h"
+#include "gpu.h"
+#include "pack/features.h"
+#include "validation.h"
+
+namespace diptych::tests {
+namespace {
+
+bool has_validation_layer() {
+    static const bool present = [] {
+        try {
+            open_instance(true);
+            return true;
+        } catch (const Error&) {
+            report_skipped("the Vulkan validation layer is not installed (package vulkan-validationlayers)");
+            return false;
+        }
+    }();
+    return present;
+}
+
+bool brings_light(const Scene& scene) {
+    bool emissive = false;
+    for (const Material& material : scene.materials) {
+        emissive = emissive || emits(material);
+    }
+    return emissive || !scene.lights.empty() || scene.environment.kind != Environment::Kind::none;
+}
+
+}  // namespace
+
+bool has_vulkan() {
+    for (const VulkanDeviceInfo& info : list_vulkan_devices()) {
+        if (info.usable) {
+            return true;
+        }
+    }
+    return false;
+}
+
+Film render_vulkan(const Scene& scene, const RenderSettings& settings, std::uint32_t spp) {
+    Film film;
+    {
+        const PackedScene packed = pack_scene(scene, settings);
+        const auto renderer = make_vulkan_renderer(packed, {.device = "", .validation = has_validation_layer()});
+        const std::atomic<bool> cancel{false};
+        renderer->render(0, spp, cancel);
+        film = renderer->film();
+    }
+    for (const std::string& message : validation_messages()) {
+        INFO(message);
+        CHECK(false);
+    }
+    CHECK(validation_message_count() == 0);
+    clear_validation_messages();
+    return film;
+}
+
+void complete_scene(Scene& scene) {
+    if (!brings_light(scene)) {
+        scene.environment = neutral_sky();
+    }
+    if (scene.cameras.empty()) {
+        scene.cameras.push_back(frame_scene(scene));
+    }
+}
+
+std::filesystem::path asset_folder() {
+    const char* given = std::getenv("DIPTYCH_ASSETS");
+    const std::filesystem::path folder =
+        given != nullptr ? std::filesystem::path(given) : std::filesystem::path(DIPTYCH_SOURCE_DIR) / "../shared/assets";
+    return std::filesystem::is_directory(folder / "gltf") ? folder / "gltf" : std::filesystem::path();
+}
+
+double fraction_equal(const Film& a, const Film& b) { return compare_images(develop(a), develop(b)).fraction_equal; }
+
+}  // namespace diptych::tests

@@ -1,0 +1,37 @@
+// One picture on both backends.
+#pragma once
+
+#include <filesystem>
+
+#include "../cpu/agreement_scenes.h"
+#include "image/metrics.h"
+#include "scene/default_camera.h"
+#include "scene/environment_load.h"
+#include "vulkan_renderer.h"
+
+namespace diptych::tests {
+
+/// Whether a usable Vulkan device exists.
+bool has_vulkan();
+
+/// Renders on the device, under validation where its layer is installed, and fails on any message of it.
+Film render_vulkan(const Scene& scene, const RenderSettings& settings, std::uint32_t spp);
+
+/// Lights and cameras for a file that brings none, as the program does.
+void complete_scene(Scene& scene);
+
+/// Files of the real assets by their path under gltf/; empty where the assets are not there.
+std::filesystem::path asset_folder();
+
+/// Share of pixels that differ by at most 1e-3 max(|a|, |b|) + 1e-6 in every channel.
+double fraction_equal(const Film& a, const Film& b);
+
+}  // namespace diptych::tests
+
+/// Leaves the test case where there is no device.
+#define NEED_VULKAN()                                                                                     \
+    do {                                                                                                  \
+        if (!diptych::tests::has_vulkan()) {                                                              \
+            SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 or later brings one"); \
+        }                                                                                                 \
+    } while (false)
