@@ -79,12 +79,11 @@ FN bool bsdf_is_purely_delta(IN(BsdfParameters) p, uint features) {
     return bsdf_is_mirror(p, features) && !(max_component(p.diffuse) > 0.0f);
 }
 
-/// eval and pdf of the lobes that are not delta.
-FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint features) {
+/// eval and pdf of the lobes that are not delta. `p_specular` is bsdf_specular_probability of wo.
+FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, float p_specular, vec3 wi, uint features) {
     BsdfValue r;
     r.value = vec3(0.0f, 0.0f, 0.0f);
     r.pdf = 0.0f;
-    float p_specular = bsdf_specular_probability(p, wo);
     if (!(wo.z > COS_MIN && wi.z > COS_MIN) || p_specular < 0.0f) {
         return r;
     }
@@ -114,6 +113,10 @@ FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint fe
     return r;
 }
 
+FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint features) {
+    return bsdf_eval_pdf_local(p, wo, bsdf_specular_probability(p, wo), wi, features);
+}
+
 /// f |cos_i|, without delta lobes.
 FN vec3 bsdf_eval_local(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint features) {
     BsdfValue r = bsdf_eval_pdf_local(p, wo, wi, features);
@@ -135,10 +138,10 @@ FN BsdfSample bsdf_null_sample() {
     return s;
 }
 
-/// A direction by one of the lobes; a facet that reflects below the horizon gives a null sample, never a retry.
-FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float u_lobe, vec2 u, uint features) {
+/// A direction by one of the lobes; a facet that reflects below the horizon gives a null sample, never a retry. `p_specular` is
+/// bsdf_specular_probability of wo.
+FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float p_specular, float u_lobe, vec2 u, uint features) {
     BsdfSample s = bsdf_null_sample();
-    float p_specular = bsdf_specular_probability(p, wo);
     if (!(wo.z > COS_MIN) || p_specular < 0.0f) {
         return s;
     }
@@ -166,12 +169,16 @@ FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float u_lobe, vec
     } else {
         s.direction = sample_cosine_hemisphere(u);
     }
-    BsdfValue r = bsdf_eval_pdf_local(p, wo, s.direction, features);
+    BsdfValue r = bsdf_eval_pdf_local(p, wo, p_specular, s.direction, features);
     if (r.pdf > 0.0f) {
-        s.weight = r.value / r.pdf;
+        s.weight = p_specular > 0.0f ? r.value * (1.0f / r.pdf) : p.diffuse;
         s.pdf = r.pdf;
     }
     return s;
+}
+
+FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float u_lobe, vec2 u, uint features) {
+    return bsdf_sample_local(p, wo, bsdf_specular_probability(p, wo), u_lobe, u, features);
 }
 
 SHARED_END

@@ -15,6 +15,7 @@
 #define IN(T) const T&
 #define OUT(T) T&
 #define INOUT(T) T&
+#define LOCAL(T) const T&
 #define PRECISE
 #define SHARED_BEGIN namespace diptych::shared {
 #define SHARED_END }
@@ -22,7 +23,6 @@
 #define ASSERT_OFFSET(T, field, bytes) static_assert(offsetof(T, field) == (bytes))
 
 namespace diptych::shared {
-using glm::abs;
 using glm::bvec3;
 using glm::clamp;
 using glm::cross;
@@ -44,6 +44,9 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
+// GLM's compares and negates.
+inline float abs(float x) { return __builtin_fabsf(x); }
+inline vec3 abs(const vec3& v) { return vec3(abs(v.x), abs(v.y), abs(v.z)); }
 inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
 inline float uintBitsToFloat(uint x) { return std::bit_cast<float>(x); }
 inline int floatBitsToInt(float x) { return std::bit_cast<int>(x); }
@@ -56,6 +59,15 @@ inline uint bitfieldReverse(uint x) {
     x = ((x & 0x33333333U) << 2U) | ((x >> 2U) & 0x33333333U);
     return ((x & 0x55555555U) << 1U) | ((x >> 1U) & 0x55555555U);
 }
+/// Of both words in one go.
+inline uvec2 bitfieldReverse(const uvec2& v) {
+    const auto both = [](std::uint64_t mask) { return mask << 32U | mask; };
+    std::uint64_t x = __builtin_bswap64(std::uint64_t{v.x} << 32U | v.y);
+    x = ((x & both(0x0f0f0f0fU)) << 4U) | ((x >> 4U) & both(0x0f0f0f0fU));
+    x = ((x & both(0x33333333U)) << 2U) | ((x >> 2U) & both(0x33333333U));
+    x = ((x & both(0x55555555U)) << 1U) | ((x >> 1U) & both(0x55555555U));
+    return uvec2(static_cast<uint>(x), static_cast<uint>(x >> 32U));
+}
 inline vec3 xyz(const vec4& v) { return vec3(v); }
 }  // namespace diptych::shared
 
@@ -66,6 +78,7 @@ inline vec3 xyz(const vec4& v) { return vec3(v); }
 #define IN(T) in T
 #define OUT(T) out T
 #define INOUT(T) inout T
+#define LOCAL(T) T
 #define PRECISE precise
 #define SHARED_BEGIN
 #define SHARED_END

@@ -107,8 +107,8 @@ FN vec3 emitter_radiance(IN(EmissiveTriangle) light, vec2 barycentrics) {
     if (!feature(FEATURE_EMISSIVE_TEXTURES) || (light.flags & EMITTER_VARIES) == 0u) {
         return light.radiance;
     }
-    Geometry geometry = load_geometries(light.geometry);
-    Material material = load_materials(geometry.material);
+    LOCAL(Geometry) geometry = load_geometries(light.geometry);
+    LOCAL(Material) material = load_materials(geometry.material);
     MeshPoint p = mesh_point(geometry, light.primitive, barycentrics);
     vec3 radiance = material_emission(material, p);
     if (feature(FEATURE_ALPHA) && (material.flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u) {
@@ -119,7 +119,7 @@ FN vec3 emitter_radiance(IN(EmissiveTriangle) light, vec2 barycentrics) {
 
 FN LightSample sample_emitter(uint id, vec3 reference, vec2 u) {
     LightSample s = no_light();
-    EmissiveTriangle light = load_emissive_triangles(id);
+    LOCAL(EmissiveTriangle) light = load_emissive_triangles(id);
     TriangleSample t = sample_triangle_solid_angle(reference, light.vertex_0, light.edge_1, light.edge_2, u);
     vec3 point = light.vertex_0 + t.barycentrics.x * light.edge_1 + t.barycentrics.y * light.edge_2;
     vec3 to_light = point - reference;
@@ -139,7 +139,7 @@ FN LightSample sample_emitter(uint id, vec3 reference, vec2 u) {
 
 FN LightSample sample_punctual(uint index, vec3 reference) {
     LightSample s = no_light();
-    PunctualLight light = load_punctual_lights(index);
+    LOCAL(PunctualLight) light = load_punctual_lights(index);
     s.delta = true;
     s.pdf = light.pmf;
     if (light.type == PUNCTUAL_DIRECTIONAL) {

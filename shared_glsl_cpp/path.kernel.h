@@ -57,19 +57,18 @@ FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
     return pdf_emitter(load_emissive_triangles(first + s.primitive), reference, s.position);
 }
 
-/// Light that arrives at a surface from one sampled light, scattered to `wo`.
-FN vec3 direct_light(IN(Surface) s, IN(SurfaceBsdf) bsdf, vec3 wo, IN(Sampler) random, uint dimension, uint depth,
-                     INOUT(uint) rays) {
-    LightSample light = sample_light(s.position, random, dimension);
+/// Light that arrives at a surface from one sampled light, scattered to where the surface is seen from. `origin` is where rays
+/// leave the surface.
+FN vec3 direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) bsdf, IN(SeenBsdf) seen, IN(Sampler) random, uint dimension,
+                     uint depth, INOUT(uint) rays) {
+    LightSample light = sample_light(position, random, dimension);
     if (!(light.pdf > 0.0f) || !(max_component(light.radiance) > 0.0f)) {
         return vec3(0.0f, 0.0f, 0.0f);
     }
-    BsdfValue f = surface_bsdf_eval_pdf(bsdf, wo, light.direction, features());
+    BsdfValue f = surface_bsdf_eval_pdf(bsdf, seen, light.direction, features());
     if (!(max_component(f.value) > 0.0f)) {
         return vec3(0.0f, 0.0f, 0.0f);
     }
-    float side = dot(light.direction, bsdf.geometric_normal) < 0.0f ? -1.0f : 1.0f;
-    vec3 origin = offset_ray(s.position, side * bsdf.geometric_normal);
     vec3 direction = light.distant ? light.direction : light.end - origin;
     float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
     rays += 1u;
@@ -118,9 +117,9 @@ FN PathSample trace_path(uvec2 pixel, uint sample_index) {
             break;
         }
         vec3 wo = -direction;
-        Instance instance = load_instances(hit.instance);
+        LOCAL(Instance) instance = load_instances(hit.instance);
         Surface surface = load_surface(hit, instance, wo);
-        Material material = load_materials(surface.mesh.geometry.material);
+        LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
 
         if (feature(FEATURE_EMISSIVE) && (material.flags & MATERIAL_EMISSIVE) != 0u &&
             (dot(surface.normal, wo) > 0.0f || (material.flags & MATERIAL_DOUBLE_SIDED) != 0u)) {
@@ -142,15 +141,21 @@ FN PathSample trace_path(uvec2 pixel, uint sample_index) {
             break;
         }
 
+        SeenBsdf seen = see_bsdf(bsdf, wo, features());
+        origin = offset_ray(surface.position, bsdf.geometric_normal);  // nothing is scattered through the surface
         uint dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
         bool samples_lights = feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features());
         if (samples_lights) {
-            result.radiance += throughput * direct_light(surface, bsdf, wo, random, dimension, depth, result.rays);
+            result.radiance +=
+                throughput * direct_light(surface.position, origin, bsdf, seen, random, dimension, depth, result.rays);
         }
 
-        vec2 u_lobe = sample_2d(random, dimension + DIMENSION_LOBE);
+        vec2 u_lobe = vec2(0.0f, 0.0f);
+        if (surface_bsdf_picks_lobe(seen)) {
+            u_lobe = sample_2d(random, dimension + DIMENSION_LOBE);
+        }
         vec2 u_direction = sample_2d(random, dimension + DIMENSION_BSDF_DIRECTION);
-        BsdfSample next = surface_bsdf_sample(bsdf, wo, u_lobe, u_direction, features());
+        BsdfSample next = surface_bsdf_sample(bsdf, seen, u_lobe, u_direction, features());
         throughput = throughput * next.weight;
         if (!(next.pdf > 0.0f) || !(max_component(throughput) > 0.0f)) {
             break;
@@ -170,8 +175,6 @@ FN PathSample trace_path(uvec2 pixel, uint sample_index) {
         pdf_direction = next.pdf;
         reference = surface.position;
         direction = next.direction;
-        float side = dot(direction, bsdf.geometric_normal) < 0.0f ? -1.0f : 1.0f;
-        origin = offset_ray(surface.position, side * bsdf.geometric_normal);
     }
     return result;
 }

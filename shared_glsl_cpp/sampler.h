@@ -121,7 +121,7 @@ FN uvec2 sobol_bits_2d(IN(Sampler) s, uint dimension) {
     uint i = bitfieldReverse(owen_scramble_reversed(s.reversed_index, words.z));
     uint first = owen_scramble_reversed(i, words.x);
     uint second = owen_scramble_reversed(sobol_second_reversed(i), words.y);
-    return uvec2(bitfieldReverse(first), bitfieldReverse(second));
+    return bitfieldReverse(uvec2(first, second));
 }
 
 /// Words for dimensions `dimension` (even) and the one after.

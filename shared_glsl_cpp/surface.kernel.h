@@ -53,7 +53,7 @@ FN vec3 normalize_or(vec3 v, vec3 fallback) {
 
 FN Surface load_surface(IN(Hit) hit, IN(Instance) instance, vec3 wo) {
     Surface s;
-    Geometry g = load_geometries(instance.first_geometry + hit.geometry);
+    LOCAL(Geometry) g = load_geometries(instance.first_geometry + hit.geometry);
     s.mesh = mesh_point(g, hit.primitive, hit.barycentrics);
     vec3 a = load_positions(g.first_vertex + s.mesh.triangle.x);
     vec3 b = load_positions(g.first_vertex + s.mesh.triangle.y);

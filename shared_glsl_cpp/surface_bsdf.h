@@ -17,9 +17,36 @@ struct SurfaceBsdf {
     uint mapped;            // 1: the material has a normal map
 };
 
-/// No light leaks through the triangle: both directions must be on its outer side.
-FN bool surface_reflects(IN(SurfaceBsdf) s, vec3 wo, vec3 wi) {
-    return dot(wo, s.geometric_normal) > 0.0f && dot(wi, s.geometric_normal) > 0.0f;
+/// What all directions seen from one wo share.
+struct SeenBsdf {
+    vec3 wo;
+    bool reflects;     // wo is on the triangle's outer side
+    vec3 normal;       // the shading normal, bent
+    Frame frame;       // of that normal; void where `mapped`
+    vec3 wo_local;     // in that frame
+    float p_specular;  // bsdf_specular_probability
+    bool mapped;       // the normal map tilts: mapped_eval_pdf and mapped_sample
+};
+
+FN SeenBsdf see_bsdf(IN(SurfaceBsdf) s, vec3 wo, uint features) {
+    SeenBsdf seen;
+    seen.wo = wo;
+    seen.reflects = dot(wo, s.geometric_normal) > 0.0f;
+    seen.normal = bent_normal(s.shading_normal, s.geometric_normal, wo);
+    seen.frame = frame_from_normal(seen.normal);
+    seen.wo_local = to_local(seen.frame, wo);
+    seen.p_specular = bsdf_specular_probability(s.parameters, seen.wo_local);
+    seen.mapped = false;
+    if ((features & FEATURE_NORMAL_MAPS) != 0u && s.mapped != 0u) {
+        MappedNormal m = make_mapped_normal(s.shading_normal, seen.normal, s.mapped_normal);
+        seen.mapped = m.tilted != 0u;
+    }
+    return seen;
+}
+
+/// Whether surface_bsdf_sample reads `u_lobe`.
+FN bool surface_bsdf_picks_lobe(IN(SeenBsdf) seen) {
+    return seen.mapped || (seen.p_specular > 0.0f && seen.p_specular < 1.0f);
 }
 
 FN BsdfValue bsdf_eval_pdf_in_frame(IN(BsdfParameters) p, IN(Frame) frame, vec3 wo, vec3 wi, uint features) {
@@ -65,22 +92,24 @@ FN BsdfValue mapped_eval_pdf(IN(BsdfParameters) p, IN(MappedNormal) m, vec3 wo, 
     return sum;
 }
 
-/// f |cos_i| and its pdf, without delta lobes.
-FN BsdfValue surface_bsdf_eval_pdf(IN(SurfaceBsdf) s, vec3 wo, vec3 wi, uint features) {
+/// f |cos_i| and its pdf, without delta lobes. No light leaks through the triangle: both directions must be on its outer side.
+FN BsdfValue surface_bsdf_eval_pdf(IN(SurfaceBsdf) s, IN(SeenBsdf) seen, vec3 wi, uint features) {
     BsdfValue r;
     r.value = vec3(0.0f, 0.0f, 0.0f);
     r.pdf = 0.0f;
-    if (!surface_reflects(s, wo, wi)) {
+    if (!seen.reflects || !(dot(wi, s.geometric_normal) > 0.0f)) {
         return r;
     }
-    vec3 normal = bent_normal(s.shading_normal, s.geometric_normal, wo);
-    if ((features & FEATURE_NORMAL_MAPS) != 0u && s.mapped != 0u) {
-        MappedNormal m = make_mapped_normal(s.shading_normal, normal, s.mapped_normal);
-        if (m.tilted != 0u) {
-            return mapped_eval_pdf(s.parameters, m, wo, wi, features);
-        }
+    if ((features & FEATURE_NORMAL_MAPS) != 0u && seen.mapped) {
+        MappedNormal m = make_mapped_normal(s.shading_normal, seen.normal, s.mapped_normal);
+        return mapped_eval_pdf(s.parameters, m, seen.wo, wi, features);
     }
-    return bsdf_eval_pdf_in_frame(s.parameters, frame_from_normal(normal), wo, wi, features);
+    return bsdf_eval_pdf_local(s.parameters, seen.wo_local, seen.p_specular, to_local(seen.frame, wi), features);
+}
+
+FN BsdfValue surface_bsdf_eval_pdf(IN(SurfaceBsdf) s, vec3 wo, vec3 wi, uint features) {
+    SeenBsdf seen = see_bsdf(s, wo, features);
+    return surface_bsdf_eval_pdf(s, seen, wi, features);
 }
 
 FN vec3 surface_bsdf_eval(IN(SurfaceBsdf) s, vec3 wo, vec3 wi, uint features) {
@@ -138,28 +167,28 @@ FN BsdfSample mapped_sample(IN(BsdfParameters) p, IN(MappedNormal) m, vec3 wo, v
     return r;
 }
 
-/// A direction in world space, unit. `u_lobe`: x picks the lobe, y the facet of a normal map.
-FN BsdfSample surface_bsdf_sample(IN(SurfaceBsdf) s, vec3 wo, vec2 u_lobe, vec2 u, uint features) {
+/// A direction in world space, unit, on the triangle's outer side. `u_lobe`: x picks the lobe, y the facet of a normal map.
+FN BsdfSample surface_bsdf_sample(IN(SurfaceBsdf) s, IN(SeenBsdf) seen, vec2 u_lobe, vec2 u, uint features) {
     BsdfSample r = bsdf_null_sample();
-    if (!(dot(wo, s.geometric_normal) > 0.0f)) {
+    if (!seen.reflects) {
         return r;
     }
-    vec3 normal = bent_normal(s.shading_normal, s.geometric_normal, wo);
-    bool done = false;
-    if ((features & FEATURE_NORMAL_MAPS) != 0u && s.mapped != 0u) {
-        MappedNormal m = make_mapped_normal(s.shading_normal, normal, s.mapped_normal);
-        if (m.tilted != 0u) {
-            r = mapped_sample(s.parameters, m, wo, u_lobe, u, features);
-            done = true;
-        }
+    if ((features & FEATURE_NORMAL_MAPS) != 0u && seen.mapped) {
+        MappedNormal m = make_mapped_normal(s.shading_normal, seen.normal, s.mapped_normal);
+        r = mapped_sample(s.parameters, m, seen.wo, u_lobe, u, features);
+    } else {
+        r = bsdf_sample_local(s.parameters, seen.wo_local, seen.p_specular, u_lobe.x, u, features);
+        r.direction = normalize(to_world(seen.frame, r.direction));
     }
-    if (!done) {
-        r = bsdf_sample_in_frame(s.parameters, frame_from_normal(normal), wo, u_lobe.x, u, features);
-    }
-    if (!surface_reflects(s, wo, r.direction)) {
+    if (!(dot(r.direction, s.geometric_normal) > 0.0f)) {
         return bsdf_null_sample();
     }
     return r;
+}
+
+FN BsdfSample surface_bsdf_sample(IN(SurfaceBsdf) s, vec3 wo, vec2 u_lobe, vec2 u, uint features) {
+    SeenBsdf seen = see_bsdf(s, wo, features);
+    return surface_bsdf_sample(s, seen, u_lobe, u, features);
 }
 
 SHARED_END

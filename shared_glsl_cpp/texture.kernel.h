@@ -101,7 +101,7 @@ FN vec4 slot_value(uint slot_index, IN(MeshPoint) p) {
     if (!feature(FEATURE_TEXTURES) || slot_index == NONE) {
         return vec4(1.0f, 1.0f, 1.0f, 1.0f);
     }
-    TextureSlot slot = load_texture_slots(slot_index);
+    LOCAL(TextureSlot) slot = load_texture_slots(slot_index);
     bool second = feature(FEATURE_SECOND_UV) && (slot.flags & TEXTURE_UV_1) != 0u;
     return sample_texture(slot, mesh_uv(p, second ? p.geometry.first_uv_1 : p.geometry.first_uv_0));
 }
