@@ -57,25 +57,30 @@ FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
     return pdf_emitter(load_emissive_triangles(first + s.primitive), reference, s.position);
 }
 
-/// Light that arrives at a surface from one sampled light, scattered to where the surface is seen from. `origin` is where rays
-/// leave the surface.
-FN vec3 direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) bsdf, IN(SeenBsdf) seen, IN(Sampler) random, uint dimension,
-                     uint depth, INOUT(uint) rays) {
+/// One sampled light, all but its visibility: `radiance` is what it adds where the shadow ray is free. Where that is black, no ray
+/// is needed.
+struct DirectLight {
+    vec3 radiance;
+    vec3 direction;  // of the shadow ray
+    float t_max;
+};
+
+/// `origin` is where rays leave the surface.
+FN DirectLight sample_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) bsdf, IN(SeenBsdf) seen,
+                                   IN(Sampler) random, uint dimension) {
+    DirectLight direct;
+    direct.radiance = vec3(0.0f, 0.0f, 0.0f);
+    direct.direction = bsdf.geometric_normal;
+    direct.t_max = 0.0f;
     LightSample light = sample_light(position, random, dimension);
     if (!(light.pdf > 0.0f) || !(max_component(light.radiance) > 0.0f)) {
-        return vec3(0.0f, 0.0f, 0.0f);
+        return direct;
     }
     BsdfValue f = surface_bsdf_eval_pdf(bsdf, seen, light.direction, features());
-    if (!(max_component(f.value) > 0.0f)) {
-        return vec3(0.0f, 0.0f, 0.0f);
-    }
-    vec3 direction = light.distant ? light.direction : light.end - origin;
-    float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
-    rays += 1u;
-    if (trace_any(origin, direction, t_max, ray_alpha_key(random, 2u * depth + 1u))) {
-        return vec3(0.0f, 0.0f, 0.0f);
-    }
-    return f.value * light.radiance * (light_sampling_weight(light, f.pdf) / light.pdf);
+    direct.radiance = f.value * light.radiance * (light_sampling_weight(light, f.pdf) / light.pdf);
+    direct.direction = light.distant ? light.direction : light.end - origin;
+    direct.t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
+    return direct;
 }
 
 FN PathSample trace_path(uvec2 pixel, uint sample_index) {
@@ -131,23 +136,29 @@ FN PathSample trace_path(uvec2 pixel, uint sample_index) {
             result.radiance += throughput * (weight * material_emission(material, surface.mesh));
         }
 
+        bool last = depth == constants.max_depth || (material.flags & MATERIAL_UNLIT) != 0u;
+        bool wants_layers = feature(FEATURE_FIRST_HIT_LAYERS) && depth == 0u;
+        if (last && !wants_layers) {
+            break;
+        }
         SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
-        if (feature(FEATURE_FIRST_HIT_LAYERS) && depth == 0u) {
+        if (wants_layers) {
             result.first_hit.albedo = xyz(base_color(material, surface.mesh));
             result.first_hit.normal = bsdf.mapped_normal;
             result.first_hit.depth = hit.t;
         }
-        if (depth == constants.max_depth || (material.flags & MATERIAL_UNLIT) != 0u) {
+        if (last) {
             break;
         }
 
         SeenBsdf seen = see_bsdf(bsdf, wo, features());
         origin = offset_ray(surface.position, bsdf.geometric_normal);  // nothing is scattered through the surface
         uint dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
-        bool samples_lights = feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features());
-        if (samples_lights) {
-            result.radiance +=
-                throughput * direct_light(surface.position, origin, bsdf, seen, random, dimension, depth, result.rays);
+        DirectLight direct;
+        direct.radiance = vec3(0.0f, 0.0f, 0.0f);
+        if (feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features())) {
+            direct = sample_direct_light(surface.position, origin, bsdf, seen, random, dimension);
+            direct.radiance = throughput * direct.radiance;
         }
 
         vec2 u_lobe = vec2(0.0f, 0.0f);
@@ -157,24 +168,31 @@ FN PathSample trace_path(uvec2 pixel, uint sample_index) {
         vec2 u_direction = sample_2d(random, dimension + DIMENSION_BSDF_DIRECTION);
         BsdfSample next = surface_bsdf_sample(bsdf, seen, u_lobe, u_direction, features());
         throughput = throughput * next.weight;
-        if (!(next.pdf > 0.0f) || !(max_component(throughput) > 0.0f)) {
-            break;
-        }
+        bool goes_on = next.pdf > 0.0f && max_component(throughput) > 0.0f;
         only_strategy = next.delta != 0u;
         if (constants.integrator == INTEGRATOR_DIRECT && !only_strategy && depth + 1u == constants.max_depth) {
-            break;  // the last ray could only find light that has been sampled
+            goes_on = false;  // the last ray could only find light that has been sampled
         }
         float survival = survival_probability(throughput, depth);
-        if (survival < 1.0f) {
+        if (goes_on && survival < 1.0f) {
             float u = sample_1d(random, dimension + DIMENSION_ROULETTE);
-            if (!(u < survival)) {
-                break;
-            }
+            goes_on = u < survival;
             throughput = throughput * (1.0f / survival);
         }
         pdf_direction = next.pdf;
         reference = surface.position;
         direction = next.direction;
+
+        // Last, so that a GPU need not keep the surface and its BSDF while the shadow ray is traced.
+        if (max_component(direct.radiance) > 0.0f) {
+            result.rays += 1u;
+            if (!trace_any(origin, direct.direction, direct.t_max, ray_alpha_key(random, 2u * depth + 1u))) {
+                result.radiance += direct.radiance;
+            }
+        }
+        if (!goes_on) {
+            break;
+        }
     }
     return result;
 }

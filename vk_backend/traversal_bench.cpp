@@ -10,7 +10,7 @@ namespace diptych {
 namespace {
 
 constexpr int repeats = 5;  // the median of which counts
-constexpr std::uint64_t most_ray_bytes = std::uint64_t{1} << 30U;
+constexpr std::uint64_t most_ray_bytes = std::uint64_t{1} << 29U;
 
 using Usage = vk::BufferUsageFlagBits;
 
@@ -80,14 +80,14 @@ std::uint64_t close_gaps(const Gpu& gpu, const RayMemory& memory) {
     return rays.size();
 }
 
-// Runs pipelines over a block, in slices, and times them.
+// Runs pipelines over a block, in slices, and times them. What it learns of a pipeline's speed lasts from run to run, so that only
+// the first is cut into small pieces.
 struct Runner {
     const Gpu& gpu;
     const PipelineLayout& layout;
     const Block& block;
 
-    double integrate(const TracePipeline& pipeline, const Bindings& bindings, bool one_by_one) const {
-        SpeedEstimate speed;
+    double integrate(const TracePipeline& pipeline, const Bindings& bindings, bool one_by_one, SpeedEstimate& speed) const {
         TimedQueue queue(gpu, [&](std::uint64_t work, double seconds) { speed.learn(work, seconds); });
         SliceCursor cursor(block.region, 0, block.samples);
         const std::uint64_t limit = gpu.ray_tracing.maxRayDispatchInvocationCount;
@@ -114,8 +114,8 @@ struct Runner {
         return queue.seconds();
     }
 
-    double trace_again(const TracePipeline& pipeline, const Bindings& bindings, std::uint64_t rays) const {
-        SpeedEstimate speed;
+    double trace_again(const TracePipeline& pipeline, const Bindings& bindings, std::uint64_t rays,
+                       SpeedEstimate& speed) const {
         TimedQueue queue(gpu, [&](std::uint64_t work, double seconds) { speed.learn(work, seconds); });
         const std::uint64_t limit = gpu.ray_tracing.maxRayDispatchInvocationCount;
         std::uint64_t ray = 0;
@@ -151,18 +151,23 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
             warm_up(recording, bindings);
             warm_up(bare, bindings);
             const Runner runner{.gpu = *gpu_, .layout = layout_, .block = block};
-            runner.integrate(recording, bindings, true);
+            SpeedEstimate recording_speed;
+            runner.integrate(recording, bindings, true, recording_speed);
             const shared::RayCounters counters = read_array<shared::RayCounters>(*gpu_, memory.counters).front();
             if (counters.dropped > 0) {
                 capacity *= 2;
                 continue;
             }
             const std::uint64_t rays = close_gaps(*gpu_, memory);
+            SpeedEstimate integrator_speed;
+            SpeedEstimate traversal_speed;
+            runner.integrate(path_, bindings, false, integrator_speed);
+            runner.trace_again(bare, bindings, rays, traversal_speed);
             std::vector<double> integrator;
             std::vector<double> traversal;
             for (int i = 0; i < repeats; ++i) {
-                integrator.push_back(runner.integrate(path_, bindings, false));
-                traversal.push_back(runner.trace_again(bare, bindings, rays));
+                integrator.push_back(runner.integrate(path_, bindings, false, integrator_speed));
+                traversal.push_back(runner.trace_again(bare, bindings, rays, traversal_speed));
             }
             return TraversalBench{
                 .rays = rays, .integrator_seconds = median(integrator), .bare_seconds = median(traversal)};
