@@ -8,7 +8,7 @@
 
 namespace diptych::tests {
 
-/// A box of two checks, opaque and clear, bright and dark: `size` texels a side.
+/// Checks, opaque and bright beside nearly clear and dark: `size` texels a side.
 inline int add_checker_texture(Scene& scene, int size, Filter filter) {
     TextureImage image;
     image.name = "checker";
@@ -17,8 +17,9 @@ inline int add_checker_texture(Scene& scene, int size, Filter filter) {
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
             const bool on = (x + y) % 2 == 0;
-            image.rgba.insert(image.rgba.end(), {static_cast<std::uint8_t>(on ? 255 : 20), static_cast<std::uint8_t>(on ? 200 : 40),
-                                                 static_cast<std::uint8_t>(on ? 120 : 200), static_cast<std::uint8_t>(on ? 255 : 60)});
+            image.rgba.insert(image.rgba.end(),
+                              {static_cast<std::uint8_t>(on ? 255 : 20), static_cast<std::uint8_t>(on ? 200 : 40),
+                               static_cast<std::uint8_t>(on ? 120 : 200), static_cast<std::uint8_t>(on ? 255 : 60)});
         }
     }
     scene.images.push_back(std::move(image));
@@ -29,7 +30,8 @@ inline int add_checker_texture(Scene& scene, int size, Filter filter) {
     return static_cast<int>(scene.textures.size()) - 1;
 }
 
-/// A room corner: floor, back wall, a glossy block. `panel` is the material of a square light over it, with texture coordinates.
+/// A room corner: floor, back wall, a glossy block. `panel` is the material of a square light over it, with texture
+/// coordinates.
 inline Scene corner_scene(Material panel, bool textured) {
     Scene scene;
     scene.name = "corner";

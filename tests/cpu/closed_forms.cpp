@@ -142,7 +142,8 @@ TEST_CASE("The closed furnace holds each bounce alone") {
             CHECK(relative_error(m, exactly(sum)) < 2e-3);
             CHECK(worst_z(m, exactly(sum)) < 4.5);
             if (depth > 0) {
-                // The same random numbers: the difference of the films is the last bounce. Its error by the spread of the pixels.
+                // The same random numbers: the difference of the films is the last bounce. Its error by the spread of
+                // the pixels.
                 double mean = 0;
                 double squares = 0;
                 const double n = static_cast<double>(film.pixels.size());
@@ -163,7 +164,8 @@ TEST_CASE("The closed furnace holds each bounce alone") {
 }
 
 TEST_CASE("A point light in the middle of a closed cube spreads evenly over its faces") {
-    // By symmetry each face receives a sixth of each bounce's flux: its mean radiance after bounce k is I/6 rho^k (side 2).
+    // By symmetry each face receives a sixth of each bounce's flux: its mean radiance after bounce k is I/6 rho^k (side
+    // 2).
     Scene scene;
     scene.name = "cube";
     const int material = add_material(scene, diffuse_material(albedo));

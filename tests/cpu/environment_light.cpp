@@ -33,8 +33,8 @@ void check_albedo(const Scene& scene, double albedo, RenderSettings settings, st
     }
 }
 
-/// Reflected share of uniform light by a GGX mirror-coloured surface (F = 1), in double: the integral over half vectors of
-/// D G2 (o.h) / (o.n), which is f cos over directions with the Jacobian 4 (o.h) taken in. Height-correlated Smith.
+/// Reflected share of uniform light by a GGX mirror-coloured surface (F = 1), in double: the integral over half vectors
+/// of D G2 (o.h) / (o.n), which is f cos over directions with the Jacobian 4 (o.h) taken in. Height-correlated Smith.
 double ggx_white_albedo(double alpha, double cos_o) {
     const double sin_o = std::sqrt(1 - cos_o * cos_o);
     const auto lambda = [&](double cosine) {
@@ -64,20 +64,20 @@ double ggx_white_albedo(double alpha, double cos_o) {
 }  // namespace
 
 TEST_CASE("A diffuse plane under a uniform sky reflects its albedo") {
-    check_albedo(floor_under_sky(diffuse_material(0.6F), {0.6, 0.4, 0.3}), 0.6, statistical_settings(16, 16, Integrator::path, 1),
-                 2048);
+    check_albedo(floor_under_sky(diffuse_material(0.6F), {0.6, 0.4, 0.3}), 0.6,
+                 statistical_settings(16, 16, Integrator::path, 1), 2048);
 }
 
 TEST_CASE("Rough white metal under a uniform sky reflects GGX's directional albedo") {
     for (const auto& [roughness, cosine] : {std::pair(0.6F, 0.3), {0.8F, 0.6}, {1.0F, 0.9}}) {
-            Material metal = make_material("metal", glm::vec3(1), 1, roughness);
-            const glm::dvec3 eye = glm::dvec3(std::sqrt(1 - cosine * cosine), cosine, 0) * 0.7;
-            const double albedo = ggx_white_albedo(static_cast<double>(roughness) * roughness, cosine);
-            INFO("roughness " << roughness << " cosine " << cosine << " albedo " << albedo);
-            CHECK(albedo < 1);
-            // Light sampling finds a narrow lobe rarely.
-            check_albedo(floor_under_sky(metal, eye), albedo, statistical_settings(16, 16, Integrator::path, 1),
-                         roughness < 0.7F ? 6144 : 2048);
+        Material metal = make_material("metal", glm::vec3(1), 1, roughness);
+        const glm::dvec3 eye = glm::dvec3(std::sqrt(1 - cosine * cosine), cosine, 0) * 0.7;
+        const double albedo = ggx_white_albedo(static_cast<double>(roughness) * roughness, cosine);
+        INFO("roughness " << roughness << " cosine " << cosine << " albedo " << albedo);
+        CHECK(albedo < 1);
+        // Light sampling finds a narrow lobe rarely.
+        check_albedo(floor_under_sky(metal, eye), albedo, statistical_settings(16, 16, Integrator::path, 1),
+                     roughness < 0.7F ? 6144 : 2048);
     }
 }
 
@@ -93,7 +93,8 @@ TEST_CASE("A perfect mirror shows the sky by its Fresnel factor") {
 }
 
 TEST_CASE("Maps are oriented and turned as promised") {
-    // Row 0 is +Y, the centre looks along -Z, and u grows toward +X; a turn is counter-clockwise about +Y seen from above.
+    // Row 0 is +Y, the centre looks along -Z, and u grows toward +X; a turn is counter-clockwise about +Y seen from
+    // above.
     Scene scene;
     scene.name = "sky";
     Environment& e = scene.environment;

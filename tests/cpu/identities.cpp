@@ -113,7 +113,8 @@ TEST_CASE("Depth 0 is emission alone, depth 1 adds direct light, depth 2 one bou
     scene.cameras = {point_camera({0.2, 0.3, 0}, {0.1, 0, 0.01})};
     for (const Integrator integrator : integrators) {
         CHECK(image_mean(render_cpu(scene, statistical_settings(4, 4, integrator, 0), 4)).mean[0] == 0);
-        CHECK(image_mean(render_cpu(scene, statistical_settings(4, 4, integrator, 1), 64)).mean[0] == Approx(2).epsilon(1e-4));
+        CHECK(image_mean(render_cpu(scene, statistical_settings(4, 4, integrator, 1), 64)).mean[0] ==
+              Approx(2).epsilon(1e-4));
     }
 }
 

@@ -28,8 +28,8 @@ inline Polygon clip_to_horizon(const Polygon& polygon, const glm::dvec3& normal)
     return out;
 }
 
-/// E / L at the origin, facing `normal`, from a polygon of radiance L that shines to both sides: half the sum over edges of the
-/// angle times the cosine of the edge's plane.
+/// E / L at the origin, facing `normal`, from a polygon of radiance L that shines to both sides: half the sum over
+/// edges of the angle times the cosine of the edge's plane.
 inline double polygon_irradiance(const Polygon& polygon, const glm::dvec3& normal) {
     const Polygon p = clip_to_horizon(polygon, normal);
     double sum = 0;

@@ -41,4 +41,6 @@ void check_street(std::uint64_t count, double seconds_allowed) {
 
 }  // namespace
 
-TEST_CASE("A street of a million lights packs and renders") { check_street(1'000'000, 60); }
+TEST_CASE("A street of a million lights packs and renders") {
+    check_street(1'000'000, 60);
+}

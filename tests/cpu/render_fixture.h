@@ -89,8 +89,9 @@ inline double relative_error(const ImageMean& a, const ImageMean& b) {
     return worst;
 }
 
-/// Two films of one seed, pixel by pixel. If each pixel's difference has mean zero, `z` is of order 1 whatever the tails, since it is
-/// normalised by the differences themselves (at most sqrt(pixels)); what both films share, such as a lamp in view, cancels.
+/// Two films of one seed, pixel by pixel. If each pixel's difference has mean zero, `z` is of order 1 whatever the
+/// tails, since it is normalised by the differences themselves (at most sqrt(pixels)); what both films share, such as a
+/// lamp in view, cancels.
 struct PairedDifference {
     double z = 0;               // of the worst channel
     double relative_error = 0;  // of the difference of the means, in units of the mean
@@ -116,8 +117,12 @@ inline PairedDifference paired_difference(const Film& a, const Film& b) {
     return out;
 }
 
-inline ImageMean exactly(double value) { return {{value, value, value}, {}, 0}; }
-inline ImageMean exactly(const Rgb& value) { return {value, {}, 0}; }
+inline ImageMean exactly(double value) {
+    return {{value, value, value}, {}, 0};
+}
+inline ImageMean exactly(const Rgb& value) {
+    return {value, {}, 0};
+}
 
 inline std::string describe(const ImageMean& m) {
     std::string text;
@@ -155,7 +160,7 @@ inline Material diffuse_material(float albedo) {
     return m;
 }
 
-/// Every vertical edge on the y plane: a square of half side `half` about `center`, front up or down.
+/// A level square of half side `half` about `center`, front up or down.
 inline Primitive horizontal_square(const glm::vec3& center, float half, bool front_up, int material) {
     Primitive p;
     p.material = material;

@@ -33,7 +33,9 @@ struct TextureKernel {
 namespace tests {
 namespace {
 
-double srgb_to_linear(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
+double srgb_to_linear(double x) {
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
 
 int wrapped(int i, int n, Wrap wrap) {
     if (wrap == Wrap::clamp) {
@@ -107,7 +109,8 @@ TEST_CASE("Lookups match double in every wrap mode, filter, size and encoding") 
                     Scene scene;
                     scene.name = "lookup";
                     scene.images = {random_image(3, 2, random), random_image(width, height, random)};
-                    scene.textures = {{"other", 0, Wrap::repeat, Wrap::repeat, Filter::linear}, {"t", 1, wrap_u, wrap_v, filter}};
+                    scene.textures = {{"other", 0, Wrap::repeat, Wrap::repeat, Filter::linear},
+                                      {"t", 1, wrap_u, wrap_v, filter}};
                     Material m = diffuse_material(1);
                     m.base_color_texture.texture = 1;          // sRGB
                     m.metallic_roughness_texture.texture = 1;  // linear
@@ -125,9 +128,11 @@ TEST_CASE("Lookups match double in every wrap mode, filter, size and encoding") 
                             continue;
                         }
                         for (const bool srgb : {false, true}) {
-                            const std::uint32_t slot = srgb ? material.base_color_slot : material.metallic_roughness_slot;
+                            const std::uint32_t slot =
+                                srgb ? material.base_color_slot : material.metallic_roughness_slot;
                             const shared::vec4 got = kernel.sample_texture(packed.texture_slots.at(slot), uv);
-                            const glm::dvec4 want = Lookup{scene.images[1], scene.textures[1], srgb}(static_cast<double>(uv.x), static_cast<double>(uv.y));
+                            const glm::dvec4 want = Lookup{scene.images[1], scene.textures[1],
+                                                           srgb}(static_cast<double>(uv.x), static_cast<double>(uv.y));
                             for (int c = 0; c < 4; ++c) {
                                 worst = std::max(worst, std::abs(static_cast<double>(got[c]) - want[c]));
                             }

@@ -40,8 +40,8 @@ TEST_CASE("The alias table holds its probabilities over twelve decades") {
             const std::vector<double> p = pick_probabilities(decades(n, 12, static_cast<std::uint32_t>(n)), defensive);
             const std::vector<double> q = table_probabilities(build_alias_table(p));
             double sum = 0;
-            double worst = 0;       // against the mean probability
-            double worst_big = 0;   // relative, of what is picked more often than the mean
+            double worst = 0;      // against the mean probability
+            double worst_big = 0;  // relative, of what is picked more often than the mean
             for (std::size_t i = 0; i < n; ++i) {
                 sum += p[i];
                 worst = std::max(worst, std::abs(p[i] - q[i]) * static_cast<double>(n));
@@ -59,7 +59,7 @@ TEST_CASE("The alias table holds its probabilities over twelve decades") {
 }
 
 TEST_CASE("Dim entries of the alias table keep their own probability") {
-    // Each light of 1e-12 among bright ones is picked as often as it should be, so that its rare picks count right.
+    // Each light of 1e-6 among bright ones is picked as often as it should be, so that its rare picks count right.
     std::vector<double> weights(1000, 1.0);
     for (std::size_t i = 0; i < weights.size(); i += 10) {
         weights[i] = 1e-6;

@@ -13,8 +13,12 @@ namespace {
 FEATURE_LIST(USE_FEATURE)
 #undef USE_FEATURE
 
-Primitive& square(Scene& scene) { return scene.meshes[0].primitives[0]; }
-Material& material(Scene& scene) { return scene.materials[0]; }
+Primitive& square(Scene& scene) {
+    return scene.meshes[0].primitives[0];
+}
+Material& material(Scene& scene) {
+    return scene.materials[0];
+}
 
 struct Case {
     const char* name;
@@ -26,7 +30,8 @@ struct Case {
 const std::vector<Case>& cases() {
     static const std::vector<Case> all = {
         {"nothing", [](Scene&, RenderSettings&) {}, 0},
-        {"texture", [](Scene& s, RenderSettings&) { material(s).base_color_texture.texture = add_texture(s); }, FEATURE_TEXTURES},
+        {"texture", [](Scene& s, RenderSettings&) { material(s).base_color_texture.texture = add_texture(s); },
+         FEATURE_TEXTURES},
         {"roughness texture",
          [](Scene& s, RenderSettings&) { material(s).metallic_roughness_texture.texture = add_texture(s); },
          FEATURE_TEXTURES | FEATURE_MIRRORS},
@@ -40,8 +45,13 @@ const std::vector<Case>& cases() {
          FEATURE_TEXTURES | FEATURE_SECOND_UV},
         {"mask", [](Scene& s, RenderSettings&) { material(s).alpha_mode = AlphaMode::mask; }, FEATURE_ALPHA},
         {"blend", [](Scene& s, RenderSettings&) { material(s).alpha_mode = AlphaMode::blend; }, FEATURE_ALPHA},
-        {"vertex colours", [](Scene& s, RenderSettings&) { square(s).colors.assign(4, glm::vec4(1)); }, FEATURE_VERTEX_COLORS},
-        {"emission", [](Scene& s, RenderSettings&) { material(s).emission = {0, 0, 1}; }, FEATURE_EMISSIVE},
+        {"vertex colours", [](Scene& s, RenderSettings&) { square(s).colors.assign(4, glm::vec4(1)); },
+         FEATURE_VERTEX_COLORS},
+        {"emission",
+         [](Scene& s, RenderSettings&) {
+             material(s).emission = {0, 0, 1};
+         },
+         FEATURE_EMISSIVE},
         {"emission, light sampling",
          [](Scene& s, RenderSettings& r) {
              material(s).emission = {0, 0, 1};
@@ -76,7 +86,8 @@ const std::vector<Case>& cases() {
          },
          0},
         {"lamp", [](Scene& s, RenderSettings&) { s.lights.emplace_back(); }, FEATURE_PUNCTUAL | FEATURE_LIGHT_SAMPLING},
-        {"sky", [](Scene& s, RenderSettings&) { s.environment.kind = Environment::Kind::constant; }, FEATURE_CONSTANT_ENVIRONMENT},
+        {"sky", [](Scene& s, RenderSettings&) { s.environment.kind = Environment::Kind::constant; },
+         FEATURE_CONSTANT_ENVIRONMENT},
         {"sky, direct",
          [](Scene& s, RenderSettings& r) {
              s.environment.kind = Environment::Kind::constant;
@@ -91,7 +102,8 @@ const std::vector<Case>& cases() {
              s.environment.texels.assign(2, glm::vec3(1));
          },
          FEATURE_ENVIRONMENT_MAP},
-        {"blinn-phong", [](Scene&, RenderSettings& r) { r.brdf = BrdfModel::blinn_phong; }, FEATURE_BLINN_PHONG, FEATURE_GGX},
+        {"blinn-phong", [](Scene&, RenderSettings& r) { r.brdf = BrdfModel::blinn_phong; }, FEATURE_BLINN_PHONG,
+         FEATURE_GGX},
         {"mirror", [](Scene& s, RenderSettings&) { material(s).roughness = 0; }, FEATURE_MIRRORS},
         {"all but a mirror", [](Scene& s, RenderSettings&) { material(s).roughness = 0.011F; }, 0},
         {"lens", [](Scene& s, RenderSettings&) { s.cameras[0].lens_radius = 0.1; }, FEATURE_THIN_LENS},

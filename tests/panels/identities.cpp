@@ -53,8 +53,8 @@ TEST_CASE("The generic pipeline gives the specialised one's picture") {
         const Departure d = departure(develop(specialised).color, develop(generic).color);
         std::printf("%-30s largest relative difference %.1e, above 1e-6: %.4f\n", name.c_str(), d.largest, d.share);
         INFO(name << ": largest relative difference " << d.largest << ", above 1e-6: " << d.share);
-        // Not to the bit: what is not `precise` a driver may round as suits the code around it, and that differs once branches are
-        // gone. Mesa 25's lavapipe: at most 5e-5, and 3 % of values above 1e-6.
+        // Not to the bit: what is not `precise` a driver may round as suits the code around it, and that differs once
+        // branches are gone. Mesa 25's lavapipe: at most 5e-5, and 3 % of values above 1e-6.
         CHECK(d.largest < 1e-3);
         CHECK(d.share < 0.1);
         CHECK(film_totals(specialised).rays == film_totals(generic).rays);
@@ -78,12 +78,13 @@ TEST_CASE("First-hit layers are the same on both panels") {
         const auto unlike = [](const Image& a, const Image& b) {
             std::size_t count = 0;
             for (std::size_t i = 0; i < a.data.size(); ++i) {
-                count += std::abs(a.data[i] - b.data[i]) > 1e-3F * std::max(std::abs(a.data[i]), std::abs(b.data[i])) + 1e-4F;
+                count += std::abs(a.data[i] - b.data[i]) >
+                         1e-3F * std::max(std::abs(a.data[i]), std::abs(b.data[i])) + 1e-4F;
             }
             return static_cast<double>(count) / static_cast<double>(a.data.size());
         };
-        INFO(name << ": albedo " << unlike(*cpu.albedo, *vulkan.albedo) << " normal " << unlike(*cpu.normal, *vulkan.normal)
-                  << " depth " << unlike(*cpu.depth, *vulkan.depth));
+        INFO(name << ": albedo " << unlike(*cpu.albedo, *vulkan.albedo) << " normal "
+                  << unlike(*cpu.normal, *vulkan.normal) << " depth " << unlike(*cpu.depth, *vulkan.depth));
         // Rays that meet an edge within rounding may go either way.
         CHECK(unlike(*cpu.albedo, *vulkan.albedo) <= 0.005);
         CHECK(unlike(*cpu.normal, *vulkan.normal) <= 0.005);

@@ -72,11 +72,14 @@ void complete_scene(Scene& scene) {
 
 std::filesystem::path asset_folder() {
     const char* given = std::getenv("DIPTYCH_ASSETS");
-    const std::filesystem::path folder =
-        given != nullptr ? std::filesystem::path(given) : std::filesystem::path(DIPTYCH_SOURCE_DIR) / "../shared/assets";
+    const std::filesystem::path folder = given != nullptr
+                                             ? std::filesystem::path(given)
+                                             : std::filesystem::path(DIPTYCH_SOURCE_DIR) / "../shared/assets";
     return std::filesystem::is_directory(folder / "gltf") ? folder / "gltf" : std::filesystem::path();
 }
 
-double fraction_equal(const Film& a, const Film& b) { return compare_images(develop(a), develop(b)).fraction_equal; }
+double fraction_equal(const Film& a, const Film& b) {
+    return compare_images(develop(a), develop(b)).fraction_equal;
+}
 
 }  // namespace diptych::tests

@@ -29,9 +29,9 @@ double fraction_equal(const Film& a, const Film& b);
 }  // namespace diptych::tests
 
 /// Leaves the test case where there is no device.
-#define NEED_VULKAN()                                                                                     \
-    do {                                                                                                  \
-        if (!diptych::tests::has_vulkan()) {                                                              \
-            SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 or later brings one"); \
-        }                                                                                                 \
+#define NEED_VULKAN()                                                                                                  \
+    do {                                                                                                               \
+        if (!diptych::tests::has_vulkan()) {                                                                           \
+            SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 or later brings one");              \
+        }                                                                                                              \
     } while (false)

@@ -22,13 +22,14 @@ RenderSettings paired_settings(int width, int height, Integrator integrator, Brd
     return s;
 }
 
-void check_pair(const std::string& name, const Scene& scene, const RenderSettings& settings, std::uint32_t spp, double least) {
+void check_pair(const std::string& name, const Scene& scene, const RenderSettings& settings, std::uint32_t spp,
+                double least) {
     const Film cpu = render_cpu(scene, settings, spp);
     const Film vulkan = render_vulkan(scene, settings, spp);
     const double equal = fraction_equal(cpu, vulkan);
     const PairedDifference d = paired_difference(cpu, vulkan);
-    std::printf("%-34s %-6s %-11s equal %.4f  z %.2f  difference of means %.1e\n", name.c_str(), name_of(settings.integrator),
-                name_of(settings.brdf), equal, d.z, d.z * d.relative_error);
+    std::printf("%-34s %-6s %-11s equal %.4f  z %.2f  difference of means %.1e\n", name.c_str(),
+                name_of(settings.integrator), name_of(settings.brdf), equal, d.z, d.z * d.relative_error);
     INFO(name << " " << name_of(settings.integrator) << " " << name_of(settings.brdf) << " equal " << equal);
     CHECK(equal >= least);
     CHECK(d.z < 4.5);
@@ -87,7 +88,8 @@ TEST_CASE("Both panels paint real scenes alike from one seed") {
           "cornell_mm/cornell_mm.gltf"}) {
         Scene scene = load_gltf(folder / file);
         complete_scene(scene);
-        check_pair(std::filesystem::path(file).stem(), scene, paired_settings(32, 24, Integrator::path, BrdfModel::ggx), 4, 0.995);
+        check_pair(std::filesystem::path(file).stem(), scene, paired_settings(32, 24, Integrator::path, BrdfModel::ggx),
+                   4, 0.995);
     }
 }
 
