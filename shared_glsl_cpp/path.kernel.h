@@ -197,18 +197,14 @@ FN PathSample trace_path(uvec2 pixel, uint sample_index) {
     return result;
 }
 
-/// Adds samples first_sample .. first_sample + sample_count - 1 of a pixel to its film.
-FN void render_pixel(uvec2 pixel, uint first_sample, uint sample_count, INOUT(FilmPixel) film, INOUT(FilmMoments) moments,
-                     INOUT(FilmFirstHit) first_hit) {
-    for (uint i = 0u; i < sample_count; i += 1u) {
-        PathSample s = trace_path(pixel, first_sample + i);
-        bool kept = film_add(film, s.radiance, s.rays);
-        if (feature(FEATURE_STANDARD_ERROR) && kept) {
-            film_add_moments(moments, s.radiance, film.samples);
-        }
-        if (feature(FEATURE_FIRST_HIT_LAYERS)) {
-            film_add_first_hit(first_hit, s.first_hit);
-        }
+/// Adds one sample to its pixel's film.
+FN void add_path(IN(PathSample) s, INOUT(FilmPixel) film, INOUT(FilmMoments) moments, INOUT(FilmFirstHit) first_hit) {
+    bool kept = film_add(film, s.radiance, s.rays);
+    if (feature(FEATURE_STANDARD_ERROR) && kept) {
+        film_add_moments(moments, s.radiance, film.samples);
+    }
+    if (feature(FEATURE_FIRST_HIT_LAYERS)) {
+        film_add_first_hit(first_hit, s.first_hit);
     }
 }
 

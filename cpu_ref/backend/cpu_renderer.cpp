@@ -89,9 +89,11 @@ private:
             for (int x = tile_x * tile_size; x < std::min((tile_x + 1) * tile_size, film.width); ++x) {
                 const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
                                       static_cast<std::size_t>(x);
-                kernel.render_pixel({x, y}, first, count, film.pixels[i],
-                                    film.moments.empty() ? no_moments : film.moments[i],
-                                    film.first_hits.empty() ? no_first_hit : film.first_hits[i]);
+                shared::FilmMoments& moments = film.moments.empty() ? no_moments : film.moments[i];
+                shared::FilmFirstHit& first_hit = film.first_hits.empty() ? no_first_hit : film.first_hits[i];
+                for (std::uint32_t sample = first; sample < first + count; ++sample) {
+                    kernel.add_path(kernel.trace_path({x, y}, sample), film.pixels[i], moments, first_hit);
+                }
             }
         }
     }
