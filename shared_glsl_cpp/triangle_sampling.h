@@ -37,6 +37,7 @@ struct TriangleView {
     vec3 e2;
     float volume;  // a . (e1 x e2): six times that of the tetrahedron, signed
     float denominator;  // tan(solid angle / 2) = |volume| / denominator
+    float edge_ab;      // the denominator's part |a||b||c| + (a . b)|c|
     vec3 lengths;       // of a, b, c
     float scale;
 };
@@ -79,10 +80,11 @@ FN TriangleView triangle_view(vec3 reference, vec3 v0, vec3 e1, vec3 e2) {
     float length_a = length(view.a);
     float length_b = length(b);
     float length_c = length(c);
-    PRECISE float denominator =
-        length_a * length_b * length_c + dot(view.a, b) * length_c + dot(view.a, c) * length_b + dot(b, c) * length_a;
+    PRECISE float edge_ab = length_a * length_b * length_c + dot(view.a, b) * length_c;
+    PRECISE float denominator = edge_ab + dot(view.a, c) * length_b + dot(b, c) * length_a;
     view.volume = volume;
     view.denominator = denominator;
+    view.edge_ab = edge_ab;
     view.lengths = vec3(length_a, length_b, length_c);
     return view;
 }
@@ -122,52 +124,42 @@ FN float pdf_triangle_solid_angle(vec3 reference, vec3 v0, vec3 e1, vec3 e2, vec
     return pdf_triangle_area_solid_angle(view, (point_on_triangle - reference) * view.scale);
 }
 
-/// v without its part along the unit vector `axis`, of unit length; zero where nothing is left.
-FN vec3 unit_orthogonal(vec3 v, vec3 axis) {
-    vec3 rest = v - dot(v, axis) * axis;
-    float squared = dot(rest, rest);
-    return squared > 0.0f ? rest / sqrt(squared) : vec3(0.0f, 0.0f, 0.0f);
-}
-
-/// A unit direction, uniform over the spherical triangle. Arvo 1995, "Stratified Sampling of Spherical Triangles", with
-/// both inversions in half angles, which keep their digits on small triangles: the arc from A to C' by the excess E of
-/// ABC', tan(b'/2) = sin(E/2)/(tan(c/2) sin(alpha - E/2)), and the arc t from B by sin^2(t/2) = u_y sin^2(BC'/2).
-FN vec3 sample_spherical_triangle(IN(TriangleView) view, float solid_angle, vec2 u) {
-    vec3 a = view.a / view.lengths.x;
-    vec3 b = view.b / view.lengths.y;
-    vec3 c = view.c / view.lengths.z;
-    vec3 toward_b = unit_orthogonal(b - a, a);
-    vec3 toward_c = unit_orthogonal(c - a, a);
-    float sin_alpha = abs(dot(a, cross(toward_b, toward_c)));
-    float cos_alpha = dot(toward_b, toward_c);
-    float tan_half_c = length(b - a) / max(length(b + a), 1e-20f);
-    float half_excess = 0.5f * u.x * solid_angle;
-    float sin_half;
-    float cos_half;
-    sin_cos(half_excess, sin_half, cos_half);
-    float sin_rest = sin_alpha * cos_half - cos_alpha * sin_half;
-    float tan_half_b = sin_half / max(tan_half_c * sin_rest, 1e-20f);
-    float tan_squared = tan_half_b * tan_half_b;
-    vec3 c_new = ((1.0f - tan_squared) * a + 2.0f * tan_half_b * toward_c) / (1.0f + tan_squared);
+/// Barycentrics of the second and third vertex, uniform over the spherical triangle. The map is Arvo's (1995, "Stratified Sampling
+/// of Spherical Triangles"): C' on the arc AC so that ABC' has the share u.x of the area, then a point on the arc BC'. Directions
+/// are kept as weights of the unit vectors A, B, C, in differences that cannot cancel: with o the half vector of A and C', which is
+/// A + r C in some length (Peters 2021, "BRDF Importance Sampling for Polygonal Lights"), C' = (1 - r^2)/o^2 A + ..., and
+/// sin^2(t/2) = u.y sin^2(BC'/2) for the arc t from B.
+FN vec2 sample_spherical_triangle(IN(TriangleView) view, float solid_angle, vec2 u) {
+    vec3 inverse = vec3(1.0f / view.lengths.x, 1.0f / view.lengths.y, 1.0f / view.lengths.z);
+    vec3 a = view.a * inverse.x;
+    vec3 b = view.b * inverse.y;
+    vec3 c = view.c * inverse.z;
+    float s;
+    float co;
+    sin_cos(0.5f * u.x * solid_angle, s, co);
+    float rest = max(abs(view.volume) * co - view.denominator * s, 0.0f);
+    float toward_c = max(view.edge_ab * s, 0.0f);
+    float scale = 1.0f / max(rest + toward_c, 1e-30f);
+    float r = toward_c * scale;
+    vec3 half_vector = a + r * c;
+    float share_a = rest * scale * (1.0f + r) / max(dot(half_vector, half_vector), 1e-20f);
+    float share_c = (1.0f + share_a) * r;
+    vec3 c_new = share_a * a + share_c * c;
     vec3 chord = c_new - b;
-    float sin_half_squared = min(0.25f * u.y * dot(chord, chord), 1.0f);
-    float sine = 2.0f * safe_sqrt(sin_half_squared * (1.0f - sin_half_squared));
-    return (1.0f - 2.0f * sin_half_squared) * b + sine * unit_orthogonal(chord, b);
-}
-
-/// Where the direction meets the triangle: its weights on the three vertices are in proportion to the volumes that it
-/// spans with the opposite edges. Clamped to the triangle; x < 0 where it does not meet the plane.
-FN vec2 barycentrics_along(IN(TriangleView) view, vec3 direction) {
-    float side = view.volume < 0.0f ? -1.0f : 1.0f;
-    float weight_a = max(side * dot(direction, cross(view.b, view.e2 - view.e1)), 0.0f);
-    float weight_b = max(side * dot(direction, cross(view.e2, view.a)), 0.0f);
-    float weight_c = max(side * dot(direction, cross(view.a, view.e1)), 0.0f);
+    vec3 both = c_new + b;
+    float sine_squared = 0.25f * dot(chord, chord);  // of half the arc BC'
+    float cosine_squared = 0.25f * dot(both, both);
+    float sampled = u.y * sine_squared;
+    float share_new = sqrt(u.y * max(1.0f - sampled, 0.0f) / max(cosine_squared, 1e-20f));
+    float share_b = 1.0f - 2.0f * sampled - share_new * (cosine_squared - sine_squared);
+    // On the flat triangle a vertex's weight falls with its distance.
+    float weight_a = share_new * share_a * inverse.x;
+    float weight_b = max(share_b, 0.0f) * inverse.y;
+    float weight_c = share_new * share_c * inverse.z;
     float sum = weight_a + weight_b + weight_c;
-    if (!(sum > 0.0f)) {
-        return vec2(-1.0f, -1.0f);
-    }
-    float b_1 = weight_b / sum;
-    return vec2(b_1, min(weight_c / sum, 1.0f - b_1));
+    float to_barycentric = sum > 0.0f ? 1.0f / sum : 0.0f;
+    float b_1 = min(weight_b * to_barycentric, 1.0f);
+    return vec2(b_1, min(weight_c * to_barycentric, 1.0f - b_1));
 }
 
 /// A point on the triangle: by solid angle where that is between SPHERICAL_TRIANGLE_MIN and _MAX, else by area. pdf 0
@@ -177,13 +169,8 @@ FN TriangleSample sample_triangle_solid_angle(vec3 reference, vec3 v0, vec3 e1, 
     TriangleSample result;
     if (samples_spherically(view)) {
         float solid_angle = view_solid_angle(view);
-        vec3 direction = sample_spherical_triangle(view, solid_angle, u);
-        result.barycentrics = barycentrics_along(view, direction);
+        result.barycentrics = sample_spherical_triangle(view, solid_angle, u);
         result.pdf = 1.0f / solid_angle;
-        if (!(result.barycentrics.x >= 0.0f)) {
-            result.barycentrics = vec2(0.0f, 0.0f);
-            result.pdf = 0.0f;
-        }
         return result;
     }
     result.barycentrics = sample_triangle(u);
