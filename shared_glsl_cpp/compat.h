@@ -59,15 +59,6 @@ inline uint bitfieldReverse(uint x) {
     x = ((x & 0x33333333U) << 2U) | ((x >> 2U) & 0x33333333U);
     return ((x & 0x55555555U) << 1U) | ((x >> 1U) & 0x55555555U);
 }
-/// Of both words in one go.
-inline uvec2 bitfieldReverse(const uvec2& v) {
-    const auto both = [](std::uint64_t mask) { return mask << 32U | mask; };
-    std::uint64_t x = __builtin_bswap64(std::uint64_t{v.x} << 32U | v.y);
-    x = ((x & both(0x0f0f0f0fU)) << 4U) | ((x >> 4U) & both(0x0f0f0f0fU));
-    x = ((x & both(0x33333333U)) << 2U) | ((x >> 2U) & both(0x33333333U));
-    x = ((x & both(0x55555555U)) << 1U) | ((x >> 1U) & both(0x55555555U));
-    return uvec2(static_cast<uint>(x), static_cast<uint>(x >> 32U));
-}
 inline vec3 xyz(const vec4& v) { return vec3(v); }
 }  // namespace diptych::shared
 

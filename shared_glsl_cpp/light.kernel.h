@@ -163,16 +163,15 @@ FN LightSample sample_punctual(uint index, vec3 reference) {
     return s;
 }
 
-/// One light in proportion to its power (and a defensive share of uniform picking), and a point on it. `dimension` is the vertex's
-/// first (dimensions.h).
-FN LightSample sample_light(vec3 reference, IN(Sampler) random, uint dimension) {
+/// One light in proportion to its power (and a defensive share of uniform picking) and a point on it. `dimension` is the vertex's
+/// first (dimensions.h), `draws` its first four pairs.
+FN LightSample sample_light(vec3 reference, IN(FourPairs) draws, IN(Sampler) random, uint dimension) {
     if (constants.light_count == 0u) {
         return no_light();
     }
-    uvec2 bits = sample_bits_2d(random, dimension + DIMENSION_LIGHT_PICK);
-    vec2 u = sample_2d(random, dimension + DIMENSION_LIGHT_POSITION);
-    uint column = alias_column(bits.x, constants.light_count);
-    uint id = alias_pick(load_light_table(column), column, bits.y);
+    uint column = alias_column(draws.first.z, constants.light_count);
+    uint id = alias_pick(load_light_table(column), column, draws.second.z);
+    vec2 u = vec2(unit_float(draws.first.w), unit_float(draws.second.w));
     if (feature(FEATURE_EMISSIVE) && id < constants.emissive_triangle_count) {
         return sample_emitter(id, reference, u);
     }

@@ -67,12 +67,12 @@ struct DirectLight {
 
 /// `origin` is where rays leave the surface.
 FN DirectLight sample_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) bsdf, IN(SeenBsdf) seen,
-                                   IN(Sampler) random, uint dimension) {
+                                   IN(FourPairs) draws, IN(Sampler) random, uint dimension) {
     DirectLight direct;
     direct.radiance = vec3(0.0f, 0.0f, 0.0f);
     direct.direction = bsdf.geometric_normal;
     direct.t_max = 0.0f;
-    LightSample light = sample_light(position, random, dimension);
+    LightSample light = sample_light(position, draws, random, dimension);
     if (!(light.pdf > 0.0f) || !(max_component(light.radiance) > 0.0f)) {
         return direct;
     }
@@ -154,18 +154,16 @@ FN PathSample trace_path(uvec2 pixel, uint sample_index) {
         SeenBsdf seen = see_bsdf(bsdf, wo, features());
         origin = offset_ray(surface.position, bsdf.geometric_normal);  // nothing is scattered through the surface
         uint dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
+        FourPairs draws = sample_bits_four_pairs(random, dimension);
         DirectLight direct;
         direct.radiance = vec3(0.0f, 0.0f, 0.0f);
         if (feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features())) {
-            direct = sample_direct_light(surface.position, origin, bsdf, seen, random, dimension);
+            direct = sample_direct_light(surface.position, origin, bsdf, seen, draws, random, dimension);
             direct.radiance = throughput * direct.radiance;
         }
 
-        vec2 u_lobe = vec2(0.0f, 0.0f);
-        if (surface_bsdf_picks_lobe(seen)) {
-            u_lobe = sample_2d(random, dimension + DIMENSION_LOBE);
-        }
-        vec2 u_direction = sample_2d(random, dimension + DIMENSION_BSDF_DIRECTION);
+        vec2 u_direction = vec2(unit_float(draws.first.x), unit_float(draws.second.x));
+        vec2 u_lobe = vec2(unit_float(draws.first.y), unit_float(draws.second.y));
         BsdfSample next = surface_bsdf_sample(bsdf, seen, u_lobe, u_direction, features());
         throughput = throughput * next.weight;
         bool goes_on = next.pdf > 0.0f && max_component(throughput) > 0.0f;

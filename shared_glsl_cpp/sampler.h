@@ -121,7 +121,7 @@ FN uvec2 sobol_bits_2d(IN(Sampler) s, uint dimension) {
     uint i = bitfieldReverse(owen_scramble_reversed(s.reversed_index, words.z));
     uint first = owen_scramble_reversed(i, words.x);
     uint second = owen_scramble_reversed(sobol_second_reversed(i), words.y);
-    return bitfieldReverse(uvec2(first, second));
+    return uvec2(bitfieldReverse(first), bitfieldReverse(second));
 }
 
 /// Words for dimensions `dimension` (even) and the one after.
@@ -134,6 +134,34 @@ FN uvec2 sample_bits_2d(IN(Sampler) s, uint dimension) {
         return hammersley_bits_2d(s, dimension);
     }
     return independent_bits_2d(s, dimension);
+}
+
+/// sample_bits_2d of four pairs of dimensions: `dimension` and those 2, 4 and 6 above it.
+struct FourPairs {
+    uvec4 first;
+    uvec4 second;
+};
+
+FN FourPairs sample_bits_four_pairs(IN(Sampler) s, uint dimension) {
+    uint first[4];
+    uint second[4];
+    if (s.kind == SAMPLER_SOBOL && dimension + 6u < SOBOL_MAX_DIMENSION) {
+        for (uint i = 0u; i < 4u; i++) {  // without branches: one vector on a CPU
+            uvec2 bits = sobol_bits_2d(s, dimension + 2u * i);
+            first[i] = bits.x;
+            second[i] = bits.y;
+        }
+    } else {
+        for (uint i = 0u; i < 4u; i++) {
+            uvec2 bits = sample_bits_2d(s, dimension + 2u * i);
+            first[i] = bits.x;
+            second[i] = bits.y;
+        }
+    }
+    FourPairs pairs;
+    pairs.first = uvec4(first[0], first[1], first[2], first[3]);
+    pairs.second = uvec4(second[0], second[1], second[2], second[3]);
+    return pairs;
 }
 
 /// [0, 1)^2, multiples of 2^-24.

@@ -44,11 +44,6 @@ FN SeenBsdf see_bsdf(IN(SurfaceBsdf) s, vec3 wo, uint features) {
     return seen;
 }
 
-/// Whether surface_bsdf_sample reads `u_lobe`.
-FN bool surface_bsdf_picks_lobe(IN(SeenBsdf) seen) {
-    return seen.mapped || (seen.p_specular > 0.0f && seen.p_specular < 1.0f);
-}
-
 FN BsdfValue bsdf_eval_pdf_in_frame(IN(BsdfParameters) p, IN(Frame) frame, vec3 wo, vec3 wi, uint features) {
     return bsdf_eval_pdf_local(p, to_local(frame, wo), to_local(frame, wi), features);
 }
