@@ -14,25 +14,23 @@ layout(set = 0, binding = 0) uniform accelerationStructureEXT scene_structure;
 layout(location = CLOSEST_PAYLOAD) rayPayloadEXT Hit closest_payload;
 layout(location = SHADOW_PAYLOAD) rayPayloadEXT ShadowPayload shadow_payload;
 
-uint recorded_counts[2] = uint[2](0u, 0u);  // closest, any
-
+// Appends, so that neighbours in the list were traced at about the same time, for the same purpose, by neighbouring pixels.
 void record_ray(vec3 origin, vec3 direction, float t_max, uint alpha_key) {
-    uint kind = t_max < 0.0f ? 0u : 1u;
-    uint place = recorded_counts[kind];
-    uint lane = dispatch_block.value.first_lane + gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x;
-    if (place < dispatch_block.value.ray_capacity) {
+    uint capacity = dispatch_block.value.ray_capacity;
+    uint slot = 0u;
+    if (t_max < 0.0f) {
+        slot = atomicAdd(addresses.ray_counters.data.closest, 1u);
+    } else {
+        slot = capacity - 1u - atomicAdd(addresses.ray_counters.data.any, 1u);
+    }
+    if (slot < capacity) {
         RecordedRay ray;
         ray.origin = origin;
         ray.t_max = t_max;
         ray.direction = direction;
         ray.alpha_key = alpha_key;
-        uint row = kind * dispatch_block.value.ray_capacity + place;
-        addresses.recorded_rays.data[row * dispatch_block.value.lane_count + lane] = ray;
-        atomicAdd(addresses.ray_counters.data.recorded, 1u);
-    } else {
-        atomicAdd(addresses.ray_counters.data.dropped, 1u);
+        addresses.recorded_rays.data[slot] = ray;
     }
-    recorded_counts[kind] = place + 1u;
 }
 
 uint opacity_flags() { return feature(FEATURE_ALPHA) ? gl_RayFlagsNoneEXT : gl_RayFlagsOpaqueEXT; }

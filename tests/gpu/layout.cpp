@@ -103,12 +103,11 @@ std::map<std::string, Offsets> cpp_offsets() {
         {"FilmFirstHit", {FIELD(FilmFirstHit, albedo), FIELD(FilmFirstHit, normal), FIELD(FilmFirstHit, depth)}},
         {"Dispatch",
          {FIELD(Dispatch, origin), FIELD(Dispatch, first_sample), FIELD(Dispatch, sample_count),
-          FIELD(Dispatch, first_lane), FIELD(Dispatch, lane_count), FIELD(Dispatch, ray_capacity),
-          FIELD(Dispatch, first_ray)}},
+          FIELD(Dispatch, ray_capacity), FIELD(Dispatch, first_ray)}},
         {"RecordedRay",
          {FIELD(RecordedRay, origin), FIELD(RecordedRay, t_max), FIELD(RecordedRay, direction),
           FIELD(RecordedRay, alpha_key)}},
-        {"RayCounters", {FIELD(RayCounters, recorded), FIELD(RayCounters, dropped), FIELD(RayCounters, hits)}},
+        {"RayCounters", {FIELD(RayCounters, closest), FIELD(RayCounters, any), FIELD(RayCounters, impossible)}},
     };
 }
 
