@@ -34,8 +34,7 @@ struct Entry {
     std::unique_ptr<PackedScene> packed;  // outlives the renderer, which may read it
     std::unique_ptr<Renderer> renderer;
     std::vector<double> frame_seconds;
-    std::vector<double> traversal_rates;  // rays a second, traced alone
-    std::vector<double> traversal_share;  // of that rate, reached within the integrator
+    TraversalBench traversal;
     double rays_per_frame = 0;
 };
 
@@ -76,12 +75,6 @@ void measure(Entry& entry, std::uint32_t frame, std::uint32_t spp) {
     entry.frame_seconds.push_back(entry.renderer->device_seconds() - before);
 }
 
-void measure_traversal(Entry& entry) {
-    const TraversalBench bench = entry.renderer->bench_traversal(1);
-    entry.traversal_rates.push_back(static_cast<double>(bench.rays) / bench.bare_seconds);
-    entry.traversal_share.push_back(bench.bare_seconds / bench.integrator_seconds);
-}
-
 /// The first frame of each warms up and does not count.
 void run_rounds(std::vector<Entry>& entries, const Options& options) {
     for (Entry& entry : entries) {
@@ -98,10 +91,8 @@ void run_rounds(std::vector<Entry>& entries, const Options& options) {
         entry.rays_per_frame += static_cast<double>(film_totals(entry.renderer->film()).rays);
         entry.rays_per_frame /= options.frames;
     }
-    for (int frame = 0; frame < options.frames; ++frame) {
-        for (Entry& entry : entries) {
-            measure_traversal(entry);
-        }
+    for (Entry& entry : entries) {
+        entry.traversal = entry.renderer->bench_traversal(1);  // medians of its own repeats
     }
 }
 
@@ -119,8 +110,8 @@ std::vector<Figures> evaluate(const std::vector<Entry>& entries, const Options& 
         figures.milliseconds = 1000 * seconds / options.spp;
         figures.samples_per_second = pixels * options.spp / seconds;
         figures.rays_per_second = entry.rays_per_frame / seconds;
-        figures.bare_rays_per_second = median(entry.traversal_rates);
-        figures.share_of_bare = median(entry.traversal_share);
+        figures.bare_rays_per_second = static_cast<double>(entry.traversal.rays) / entry.traversal.bare_seconds;
+        figures.share_of_bare = entry.traversal.bare_seconds / entry.traversal.integrator_seconds;
         figures.cost_relative_to_brdf = brdf_seconds > 0 ? seconds / brdf_seconds : 0;
         all.push_back(figures);
     }
