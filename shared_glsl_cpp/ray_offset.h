@@ -9,9 +9,10 @@ SHARED_BEGIN
 /// One coordinate: a step of up to 256 ulps along the normal, or a fixed one close to zero, where ulps are too small.
 FN float offset_coordinate(float position, float normal) {
     int step_ulps = int(256.0f * normal);
-    float stepped = intBitsToFloat(floatBitsToInt(position) + (position < 0.0f ? -step_ulps : step_ulps));
+    int stepped = floatBitsToInt(position) + (position < 0.0f ? -step_ulps : step_ulps);
     PRECISE float near_zero = position + normal * (1.0f / 65536.0f);
-    return abs(position) < 1.0f / 32.0f ? near_zero : stepped;
+    // Chosen as integers, which CPUs do without a branch.
+    return intBitsToFloat(abs(position) < 1.0f / 32.0f ? floatBitsToInt(near_zero) : stepped);
 }
 
 /// The finite point moved off the surface, to the side that the unit normal points to (Waechter & Binder 2019, Ray

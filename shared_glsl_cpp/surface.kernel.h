@@ -43,6 +43,10 @@ FN vec3 exact_cross(vec3 a, vec3 b) {
 
 /// v / |v|, or the fallback where v has no direction.
 FN vec3 normalize_or(vec3 v, vec3 fallback) {
+    float squared = dot(v, v);
+    if (squared > 1e-30f && squared < 1e30f) {
+        return v * inversesqrt(squared);
+    }
     float scale = max(max(abs(v.x), abs(v.y)), abs(v.z));
     if (!(scale > 1e-37f && scale < INFINITE_DISTANCE)) {
         return fallback;

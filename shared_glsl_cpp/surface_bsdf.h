@@ -173,7 +173,10 @@ FN BsdfSample surface_bsdf_sample(IN(SurfaceBsdf) s, IN(SeenBsdf) seen, vec2 u_l
         r = mapped_sample(s.parameters, m, seen.wo, u_lobe, u, features);
     } else {
         r = bsdf_sample_local(s.parameters, seen.wo_local, seen.p_specular, u_lobe.x, u, features);
-        r.direction = normalize(to_world(seen.frame, r.direction));
+        r.direction = to_world(seen.frame, r.direction);
+        if (r.delta != 0u) {
+            r.direction = normalize(r.direction);  // a chain of mirrors would add up its roundings
+        }
     }
     if (!(dot(r.direction, s.geometric_normal) > 0.0f)) {
         return bsdf_null_sample();
