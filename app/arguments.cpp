@@ -30,7 +30,29 @@ int parse_side(const std::string& text, const std::string& side) {
     return value;
 }
 
+/// What is no number at all is left to the option's own conversion.
+CLI::Validator number_that(const char* is, bool (*holds)(double)) {
+    const auto reason = [is, holds](const std::string& text) {
+        double value = 0;
+        const bool passes = !CLI::detail::lexical_cast(text, value) || holds(value);
+        return passes ? std::string() : fmt::format("{} is not {}", text, is);
+    };
+    return {reason, ""};
+}
+
 }  // namespace
+
+CLI::Validator finite_number() {
+    return number_that("a finite number", [](double x) { return std::isfinite(x); });
+}
+
+CLI::Validator positive_number() {
+    return number_that("a positive number", [](double x) { return std::isfinite(x) && x > 0; });
+}
+
+CLI::Validator non_negative_number() {
+    return number_that("a number from 0 up", [](double x) { return std::isfinite(x) && x >= 0; });
+}
 
 void add_integrator_option(CLI::App& command, RenderArguments& arguments) {
     command.add_option("--integrator", arguments.integrator, "brdf, direct or path")->capture_default_str();
@@ -48,10 +70,11 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
                        "WIDTHxHEIGHT in pixels, or a height: the camera's aspect gives the width");
     command.add_option("--camera", request.camera, "Camera by name or index; the first by default");
     command.add_option("--env", request.environment, "Light from infinity: R,G,B radiance, or a .hdr or .exr panorama");
-    command.add_option("--env-scale", request.environment_scale, "Factor on that light")->check(CLI::NonNegativeNumber);
-    command.add_option("--env-rotate", request.environment_rotation, "Degrees it is turned about +Y");
-    command.add_option("--aperture", request.lens_radius, "Radius of the lens, metres")->check(CLI::NonNegativeNumber);
-    command.add_option("--focus", request.focus_distance, "Distance in focus, metres")->check(CLI::PositiveNumber);
+    command.add_option("--env-scale", request.environment_scale, "Factor on that light")->check(non_negative_number());
+    command.add_option("--env-rotate", request.environment_rotation, "Degrees it is turned about +Y")
+        ->check(finite_number());
+    command.add_option("--aperture", request.lens_radius, "Radius of the lens, metres")->check(non_negative_number());
+    command.add_option("--focus", request.focus_distance, "Distance in focus, metres")->check(positive_number());
     command.add_flag("--generic", request.settings.generic,
                      "Leave nothing out that the scene does not need; same image");
 }

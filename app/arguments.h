@@ -19,6 +19,11 @@ struct RenderArguments {
     std::string size;
 };
 
+/// Checks of numeric options. CLI11's own ranges let NaN through, and print 309 digits where they have no upper end.
+CLI::Validator finite_number();
+CLI::Validator positive_number();
+CLI::Validator non_negative_number();
+
 void add_integrator_option(CLI::App& command, RenderArguments& arguments);
 
 /// What changes the scene (environment, camera, lens, size) and what decides its features.

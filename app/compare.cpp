@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "arguments.h"
 #include "command.h"
 #include "compare_verdict.h"
 #include "error.h"
@@ -160,15 +161,17 @@ void add_compare(CLI::App& app, Run& run) {
     command->add_option("a", options->a, "Image")->required();
     command->add_option("b", options->b, "Image that it is held against")->required();
     command->add_option("-o,--output", options->output, "Figure to write, .png");
-    command->add_option("--exposure", options->exposure, "EV of the figure")->check(CLI::Range(-100.0, 100.0));
+    command->add_option("--exposure", options->exposure, "EV of the figure")
+        ->check(CLI::Range(-100.0, 100.0))
+        ->check(finite_number());
     command->add_option("--tonemap", options->tonemap,
                         "Of the figure: none, exponential, uncharted2, aces or pbr-neutral");
     command->add_option("--heat-max", options->heat_max, "Relative difference at the heatmap's hot end")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     command->add_option("--max-z", options->max_z, "Exit 1 where |z| is larger in a channel")
-        ->check(CLI::NonNegativeNumber);
+        ->check(non_negative_number());
     command->add_option("--max-relmse", options->max_relmse, "Exit 1 where relMSE is larger")
-        ->check(CLI::NonNegativeNumber);
+        ->check(non_negative_number());
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     command->footer(examples);
     command->callback([options, &run] { run = [options] { return run_compare(*options); }; });

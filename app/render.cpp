@@ -170,6 +170,7 @@ void add_render(CLI::App& app, Run& run) {
                            ->capture_default_str();
     command->add_option("--time", request.seconds, "Render for so many seconds instead, to the nearest whole sample")
         ->check(CLI::Range(0.001, 1e9))
+        ->check(finite_number())
         ->excludes(spp);
     command
         ->add_option("--sample-count", options->sample_count,
@@ -180,7 +181,8 @@ void add_render(CLI::App& app, Run& run) {
     add_scene_options(*command, options->arguments);
     add_backend_options(*command, options->arguments);
     command->add_option("--exposure", request.exposure, "EV, powers of two; for .png")
-        ->check(CLI::Range(-100.0, 100.0));
+        ->check(CLI::Range(-100.0, 100.0))
+        ->check(finite_number());
     command->add_option("--tonemap", request.tonemap, "none, exponential, uncharted2, aces or pbr-neutral; for .png")
         ->capture_default_str();
     options->layers_option = command->add_flag("--layers,!--no-layers", options->layers,

@@ -59,6 +59,12 @@ TEST_CASE("render refuses options out of range or at odds", "[app]") {
     refused({"--env", "1,2"}, {"--env 1,2", "R,G,B"});
     refused({"--env", "1,-2,3"}, {"--env 1,-2,3", "negative"});
     refused({"--env-scale", "2"}, {"no", "give --env"});
+    refused({"--env", "1,1,1", "--env-scale", "nan"}, {"--env-scale", "nan"});
+    refused({"--env", "1,1,1", "--env-scale", "inf"}, {"--env-scale", "inf"});
+    refused({"--env-rotate", "nan"}, {"--env-rotate", "nan"});
+    refused({"--exposure", "nan"}, {"--exposure", "nan"});
+    refused({"--aperture", "nan"}, {"--aperture", "nan"});
+    refused({"--env", scene}, {"environment map"});
     refused({"--aperture", "0.1"}, {"--aperture", "--focus"});
     refused({"--seed", "-1"}, {"--seed"});
     refused({"--layers", "-o", folder.file("out.png")}, {"--layers", "out.png", ".exr"});
