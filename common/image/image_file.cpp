@@ -150,27 +150,4 @@ void write_hdr(const fs::path& path, const Image& linear_rgb) {
     encode_and_write(path, "hdr", spec, OIIO::TypeFloat, values.data());
 }
 
-Image read_equirectangular(const fs::path& path, size_t* replaced) {
-    const std::string extension = lower_extension(path);
-    if (extension != ".hdr" && extension != ".exr")
-        throw Error(path.string() + ": cannot read: an environment map is an .hdr or .exr file, not '" + extension +
-                    "'");
-    Image image = read_image(path).color;
-    size_t bad_pixels = 0;
-    for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
-        bool bad = false;
-        for (size_t channel = 0; channel < 3; ++channel) {
-            float& value = image.data[3 * pixel + channel];
-            if (std::isfinite(value) && value >= 0.0f)
-                continue;
-            value = 0.0f;
-            bad = true;
-        }
-        bad_pixels += bad ? 1 : 0;
-    }
-    if (replaced != nullptr)
-        *replaced = bad_pixels;
-    return image;
-}
-
 }  // namespace diptych

@@ -43,8 +43,4 @@ void write_png(const std::filesystem::path& path, const Image& display_values);
 /// largest value.
 void write_hdr(const std::filesystem::path& path, const Image& linear_rgb);
 
-/// An environment map (.hdr or .exr): linear RGB, all values finite and not negative. Values that are negative or not
-/// finite become 0; the pixels that had one are counted into `replaced`, if given.
-Image read_equirectangular(const std::filesystem::path& path, size_t* replaced = nullptr);
-
 }  // namespace diptych

@@ -53,6 +53,10 @@ Environment load_environment(const std::filesystem::path& path, std::string* war
         throw Error(path.string() + ": environment map: has a size of " + std::to_string(spec.width) + "x" +
                     std::to_string(spec.height) + "x" + std::to_string(spec.nchannels));
     }
+    if (!spec.format.is_floating_point()) {
+        throw Error(path.string() +
+                    ": environment map: holds display values, not radiance: wants an .hdr or .exr file");
+    }
     const int channels = spec.nchannels < 3 ? 1 : 3;
     std::vector<float> values(static_cast<std::size_t>(texels) * static_cast<std::size_t>(channels));
     if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data())) {

@@ -23,6 +23,17 @@ std::filesystem::path write_exr(const TemporaryFolder& folder, int width, int he
     return file;
 }
 
+std::filesystem::path write_png(const TemporaryFolder& folder) {
+    const std::filesystem::path file = folder.path() / "map.png";
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file.string());
+    REQUIRE(output);
+    REQUIRE(output->open(file.string(), OIIO::ImageSpec(2, 1, 3, OIIO::TypeDesc::UINT8)));
+    const std::vector<std::uint8_t> grey(6, 128);
+    REQUIRE(output->write_image(OIIO::TypeDesc::UINT8, grey.data()));
+    output->close();
+    return file;
+}
+
 }  // namespace
 
 TEST_CASE("an environment map keeps its radiance, top row first", "[environment]") {
@@ -54,6 +65,8 @@ TEST_CASE("environment maps that cannot be read are refused", "[environment]") {
     CHECK_THROWS_WITH(load_environment(folder.path() / "none.hdr"),
                       Catch::Contains("none.hdr") && Catch::Contains("no such file"));
     CHECK_THROWS_WITH(load_environment(folder.path()), Catch::Contains("is a folder"));
+    CHECK_THROWS_WITH(load_environment(write_png(folder)),
+                      Catch::Contains("map.png") && Catch::Contains("not radiance"));
     CHECK_THROWS_AS(load_environment(folder.write("empty.exr", "")), Error);
     CHECK_THROWS_AS(load_environment(folder.write("text.hdr", "no radiance here")), Error);
     CHECK_THROWS_AS(load_environment(folder.write("map.unknown", "no radiance here")), Error);

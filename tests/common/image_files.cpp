@@ -160,25 +160,6 @@ TEST_CASE("HDR keeps linear values to the precision of its shared exponent", "[i
     CHECK(close);
 }
 
-TEST_CASE("An environment map has no negative and no non-finite value, and says how many it had", "[image]") {
-    const TemporaryFolder folder;
-    LayeredImage map;
-    map.color = make_image(4, 2, 3, 0.25f);
-    map.color.at(1, 0, 0) = -2.0f;
-    map.color.at(1, 0, 1) = std::numeric_limits<float>::quiet_NaN();
-    map.color.at(3, 1, 2) = std::numeric_limits<float>::infinity();
-    write_exr(folder / "sky.exr", map);
-    size_t replaced = 99;
-    const Image read = read_equirectangular(folder / "sky.exr", &replaced);
-    CHECK(replaced == 2);
-    CHECK(read.at(1, 0, 0) == 0.0f);
-    CHECK(read.at(1, 0, 1) == 0.0f);
-    CHECK(read.at(1, 0, 2) == 0.25f);
-    CHECK(read.at(3, 1, 2) == 0.0f);
-    write_png(folder / "sky.png", map.color);
-    CHECK(contains(error_of([&] { read_equirectangular(folder / "sky.png"); }), ".hdr or .exr"));
-}
-
 TEST_CASE("Unreadable pictures are refused with file and reason", "[image]") {
     const TemporaryFolder folder;
     const auto refusal = [](const std::filesystem::path& path) { return error_of([&] { read_image(path); }); };
