@@ -1,27 +1,43 @@
-// main() of an integrator: each sample is traced and then added to its pixel's film, so that no film is kept while rays are.
+// main() of an integrator. Each sample is traced and then added to its pixel's film, so that no film is kept while rays are. An
+// invocation whose path ends begins its next sample at once, so that it need not wait for its neighbours' longer paths.
+void add_to_film(uint index, PathSample path) {
+    FilmPixel film = addresses.film_pixels.data[index];
+    FilmMoments moments;
+    FilmFirstHit first_hit;
+    if (feature(FEATURE_STANDARD_ERROR)) {
+        moments = addresses.film_moments.data[index];
+    }
+    if (feature(FEATURE_FIRST_HIT_LAYERS)) {
+        first_hit = addresses.film_first_hits.data[index];
+    }
+    add_path(path, film, moments, first_hit);
+    addresses.film_pixels.data[index] = film;
+    if (feature(FEATURE_STANDARD_ERROR)) {
+        addresses.film_moments.data[index] = moments;
+    }
+    if (feature(FEATURE_FIRST_HIT_LAYERS)) {
+        addresses.film_first_hits.data[index] = first_hit;
+    }
+}
+
 void main() {
     uvec2 pixel = dispatch_block.value.origin + gl_LaunchIDEXT.xy;
     uint index = pixel.y * constants.size.x + pixel.x;
-
-    for (uint i = 0u; i < dispatch_block.value.sample_count; i += 1u) {
-        PathSample path = trace_path(pixel, dispatch_block.value.first_sample + i);
-
-        FilmPixel film = addresses.film_pixels.data[index];
-        FilmMoments moments;
-        FilmFirstHit first_hit;
-        if (feature(FEATURE_STANDARD_ERROR)) {
-            moments = addresses.film_moments.data[index];
+    uint sample_index = dispatch_block.value.first_sample;
+    uint end = sample_index + dispatch_block.value.sample_count;
+    if (sample_index == end) {
+        return;
+    }
+    PathState path = begin_path(pixel, sample_index);
+    while (true) {
+        if (extend_path(path)) {
+            continue;
         }
-        if (feature(FEATURE_FIRST_HIT_LAYERS)) {
-            first_hit = addresses.film_first_hits.data[index];
+        add_to_film(index, path.found);
+        sample_index += 1u;
+        if (sample_index == end) {
+            break;
         }
-        add_path(path, film, moments, first_hit);
-        addresses.film_pixels.data[index] = film;
-        if (feature(FEATURE_STANDARD_ERROR)) {
-            addresses.film_moments.data[index] = moments;
-        }
-        if (feature(FEATURE_FIRST_HIT_LAYERS)) {
-            addresses.film_first_hits.data[index] = first_hit;
-        }
+        path = begin_path(pixel, sample_index);
     }
 }

@@ -83,116 +83,145 @@ FN DirectLight sample_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) b
     return direct;
 }
 
-FN PathSample trace_path(uvec2 pixel, uint sample_index) {
-    Sampler random =
-        make_sampler(pixel, sample_index, constants.seed, constants.sampler_kind, constants.sample_count);
+/// A path on its way: the ray it goes on along and what it has gathered.
+struct PathState {
+    Sampler random;
+    PathSample found;
+    vec3 origin;
+    vec3 direction;
+    vec3 throughput;
+    vec3 reference;        // the last vertex, from which lights were sampled too
+    float pdf_direction;   // of `direction`, per solid angle
+    bool only_strategy;    // no light sampling could have found what this ray finds
+    uint depth;            // scattering events so far
+};
 
-    vec2 jitter = sample_2d(random, DIMENSION_FILM);
+FN PathState begin_path(uvec2 pixel, uint sample_index) {
+    PathState path;
+    path.random = make_sampler(pixel, sample_index, constants.seed, constants.sampler_kind, constants.sample_count);
+    path.found.radiance = vec3(0.0f, 0.0f, 0.0f);
+    path.found.rays = 0u;
+    path.found.first_hit.albedo = vec3(0.0f, 0.0f, 0.0f);
+    path.found.first_hit.normal = vec3(0.0f, 0.0f, 0.0f);
+    path.found.first_hit.depth = 0.0f;
+
+    vec2 jitter = sample_2d(path.random, DIMENSION_FILM);
     vec2 film = vec2((float(pixel.x) + jitter.x) / float(constants.size.x),
                      (float(pixel.y) + jitter.y) / float(constants.size.y));
     vec2 lens = vec2(0.5f, 0.5f);
     if (feature(FEATURE_THIN_LENS)) {
-        lens = sample_2d(random, DIMENSION_LENS);
+        lens = sample_2d(path.random, DIMENSION_LENS);
     }
-    vec3 origin;
-    vec3 direction;
-    camera_ray(constants.camera, film, lens, feature(FEATURE_THIN_LENS), feature(FEATURE_ORTHOGRAPHIC), origin, direction);
+    camera_ray(constants.camera, film, lens, feature(FEATURE_THIN_LENS), feature(FEATURE_ORTHOGRAPHIC), path.origin,
+               path.direction);
+    path.throughput = vec3(1.0f, 1.0f, 1.0f);
+    path.reference = path.origin;
+    path.pdf_direction = 0.0f;
+    path.only_strategy = true;
+    path.depth = 0u;
+    return path;
+}
 
-    PathSample result;
-    result.radiance = vec3(0.0f, 0.0f, 0.0f);
-    result.rays = 0u;
-    result.first_hit.albedo = vec3(0.0f, 0.0f, 0.0f);
-    result.first_hit.normal = vec3(0.0f, 0.0f, 0.0f);
-    result.first_hit.depth = 0.0f;
+/// Light from infinity, found by a ray that left the scene.
+FN void add_environment(INOUT(PathState) path) {
+    vec3 radiance = environment_radiance(path.direction);
+    if (!path.only_strategy) {
+        float pdf_light = needs_light_pdf() ? pdf_environment(path.direction) : 0.0f;
+        radiance = radiance * bsdf_sampling_weight(path.pdf_direction, pdf_light);
+    }
+    path.found.radiance += path.throughput * radiance;
+}
 
-    vec3 throughput = vec3(1.0f, 1.0f, 1.0f);
-    vec3 reference = origin;        // the last vertex, from which lights were sampled too
-    float pdf_direction = 0.0f;     // of `direction`, per solid angle
-    bool only_strategy = true;      // no light sampling could have found what this ray finds
-    for (uint depth = 0u; depth <= constants.max_depth; depth += 1u) {
-        Hit hit = trace_closest(origin, direction, ray_alpha_key(random, 2u * depth));
-        result.rays += 1u;
-        if (hit.instance == NONE) {
-            vec3 radiance = environment_radiance(direction);
-            if (!only_strategy) {
-                float pdf_light = needs_light_pdf() ? pdf_environment(direction) : 0.0f;
-                radiance = radiance * bsdf_sampling_weight(pdf_direction, pdf_light);
-            }
-            result.radiance += throughput * radiance;
-            break;
+/// Light that the surface hit emits toward the path.
+FN void add_emission(INOUT(PathState) path, IN(Surface) surface, IN(Material) material) {
+    bool emits = feature(FEATURE_EMISSIVE) && (material.flags & MATERIAL_EMISSIVE) != 0u;
+    if (emits && (dot(surface.normal, path.direction) < 0.0f || (material.flags & MATERIAL_DOUBLE_SIDED) != 0u)) {
+        float weight = 1.0f;
+        if (!path.only_strategy) {
+            float pdf_light = needs_light_pdf() ? pdf_light_of_hit(surface, path.reference) : 0.0f;
+            weight = bsdf_sampling_weight(path.pdf_direction, pdf_light);
         }
-        vec3 wo = -direction;
-        LOCAL(Instance) instance = load_instances(hit.instance);
-        Surface surface = load_surface(hit, instance, wo);
-        LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
+        path.found.radiance += path.throughput * (weight * material_emission(material, surface.mesh));
+    }
+}
 
-        if (feature(FEATURE_EMISSIVE) && (material.flags & MATERIAL_EMISSIVE) != 0u &&
-            (dot(surface.normal, wo) > 0.0f || (material.flags & MATERIAL_DOUBLE_SIDED) != 0u)) {
-            float weight = 1.0f;
-            if (!only_strategy) {
-                float pdf_light = needs_light_pdf() ? pdf_light_of_hit(surface, reference) : 0.0f;
-                weight = bsdf_sampling_weight(pdf_direction, pdf_light);
-            }
-            result.radiance += throughput * (weight * material_emission(material, surface.mesh));
-        }
+/// Traces the path's ray, adds what light it finds and what a sampled light sends to where it ends, and scatters it there. Returns
+/// whether the path goes on.
+FN bool extend_path(INOUT(PathState) path) {
+    uint depth = path.depth;
+    Hit hit = trace_closest(path.origin, path.direction, ray_alpha_key(path.random, 2u * depth));
+    path.found.rays += 1u;
+    if (hit.instance == NONE) {
+        add_environment(path);
+        return false;
+    }
+    vec3 wo = -path.direction;
+    LOCAL(Instance) instance = load_instances(hit.instance);
+    Surface surface = load_surface(hit, instance, wo);
+    LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
+    add_emission(path, surface, material);
 
-        bool last = depth == constants.max_depth || (material.flags & MATERIAL_UNLIT) != 0u;
-        bool wants_layers = feature(FEATURE_FIRST_HIT_LAYERS) && depth == 0u;
-        if (last && !wants_layers) {
-            break;
-        }
-        SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
-        if (wants_layers) {
-            result.first_hit.albedo = xyz(base_color(material, surface.mesh));
-            result.first_hit.normal = bsdf.mapped_normal;
-            result.first_hit.depth = hit.t;
-        }
-        if (last) {
-            break;
-        }
+    bool last = depth == constants.max_depth || (material.flags & MATERIAL_UNLIT) != 0u;
+    bool wants_layers = feature(FEATURE_FIRST_HIT_LAYERS) && depth == 0u;
+    if (last && !wants_layers) {
+        return false;
+    }
+    SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
+    if (wants_layers) {
+        path.found.first_hit.albedo = xyz(base_color(material, surface.mesh));
+        path.found.first_hit.normal = bsdf.mapped_normal;
+        path.found.first_hit.depth = hit.t;
+    }
+    if (last) {
+        return false;
+    }
 
-        SeenBsdf seen = see_bsdf(bsdf, wo, features());
-        origin = offset_ray(surface.position, bsdf.geometric_normal);  // nothing is scattered through the surface
-        uint dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
-        FourPairs draws = sample_bits_four_pairs(random, dimension);
-        DirectLight direct;
-        direct.radiance = vec3(0.0f, 0.0f, 0.0f);
-        if (feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features())) {
-            direct = sample_direct_light(surface.position, origin, bsdf, seen, draws, random, dimension);
-            direct.radiance = throughput * direct.radiance;
-        }
+    SeenBsdf seen = see_bsdf(bsdf, wo, features());
+    path.origin = offset_ray(surface.position, bsdf.geometric_normal);  // nothing is scattered through the surface
+    uint dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
+    FourPairs draws = sample_bits_four_pairs(path.random, dimension);
+    DirectLight direct;
+    direct.radiance = vec3(0.0f, 0.0f, 0.0f);
+    if (feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features())) {
+        direct = sample_direct_light(surface.position, path.origin, bsdf, seen, draws, path.random, dimension);
+        direct.radiance = path.throughput * direct.radiance;
+    }
 
-        vec2 u_direction = vec2(unit_float(draws.first.x), unit_float(draws.second.x));
-        vec2 u_lobe = vec2(unit_float(draws.first.y), unit_float(draws.second.y));
-        BsdfSample next = surface_bsdf_sample(bsdf, seen, u_lobe, u_direction, features());
-        throughput = throughput * next.weight;
-        bool goes_on = next.pdf > 0.0f && max_component(throughput) > 0.0f;
-        only_strategy = next.delta != 0u;
-        if (constants.integrator == INTEGRATOR_DIRECT && !only_strategy && depth + 1u == constants.max_depth) {
-            goes_on = false;  // the last ray could only find light that has been sampled
-        }
-        float survival = survival_probability(throughput, depth);
-        if (goes_on && survival < 1.0f) {
-            float u = sample_1d(random, dimension + DIMENSION_ROULETTE);
-            goes_on = u < survival;
-            throughput = throughput * (1.0f / survival);
-        }
-        pdf_direction = next.pdf;
-        reference = surface.position;
-        direction = next.direction;
+    vec2 u_direction = vec2(unit_float(draws.first.x), unit_float(draws.second.x));
+    vec2 u_lobe = vec2(unit_float(draws.first.y), unit_float(draws.second.y));
+    BsdfSample next = surface_bsdf_sample(bsdf, seen, u_lobe, u_direction, features());
+    path.throughput = path.throughput * next.weight;
+    path.only_strategy = next.delta != 0u;
+    bool goes_on = next.pdf > 0.0f && max_component(path.throughput) > 0.0f;
+    if (constants.integrator == INTEGRATOR_DIRECT && !path.only_strategy && depth + 1u == constants.max_depth) {
+        goes_on = false;  // the last ray could only find light that has been sampled
+    }
+    float survival = survival_probability(path.throughput, depth);
+    if (goes_on && survival < 1.0f) {
+        float u = sample_1d(path.random, dimension + DIMENSION_ROULETTE);
+        goes_on = u < survival;
+        path.throughput = path.throughput * (1.0f / survival);
+    }
+    path.pdf_direction = next.pdf;
+    path.reference = surface.position;
+    path.direction = next.direction;
+    path.depth = depth + 1u;
 
-        // Last, so that a GPU need not keep the surface and its BSDF while the shadow ray is traced.
-        if (max_component(direct.radiance) > 0.0f) {
-            result.rays += 1u;
-            if (!trace_any(origin, direct.direction, direct.t_max, ray_alpha_key(random, 2u * depth + 1u))) {
-                result.radiance += direct.radiance;
-            }
-        }
-        if (!goes_on) {
-            break;
+    // Last, so that a GPU need not keep the surface and its BSDF while the shadow ray is traced.
+    if (max_component(direct.radiance) > 0.0f) {
+        path.found.rays += 1u;
+        if (!trace_any(path.origin, direct.direction, direct.t_max, ray_alpha_key(path.random, 2u * depth + 1u))) {
+            path.found.radiance += direct.radiance;
         }
     }
-    return result;
+    return goes_on;
+}
+
+FN PathSample trace_path(uvec2 pixel, uint sample_index) {
+    PathState path = begin_path(pixel, sample_index);
+    while (extend_path(path)) {
+    }
+    return path.found;
 }
 
 /// Adds one sample to its pixel's film.
