@@ -78,6 +78,17 @@ std::filesystem::path asset_folder() {
     return std::filesystem::is_directory(folder / "gltf") ? folder / "gltf" : std::filesystem::path();
 }
 
+RenderSettings paired_settings(int width, int height, Integrator integrator, BrdfModel brdf) {
+    RenderSettings s;
+    s.width = width;
+    s.height = height;
+    s.integrator = integrator;
+    s.brdf = brdf;
+    s.seed = 21;
+    s.max_depth = 5;
+    return s;
+}
+
 double fraction_equal(const Film& a, const Film& b) {
     return compare_images(develop(a), develop(b)).fraction_equal;
 }

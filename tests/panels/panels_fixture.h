@@ -23,6 +23,9 @@ void complete_scene(Scene& scene);
 /// Files of the real assets by their path under gltf/; empty where the assets are not there.
 std::filesystem::path asset_folder();
 
+/// For pictures of one seed on both panels.
+RenderSettings paired_settings(int width, int height, Integrator integrator, BrdfModel brdf);
+
 /// Share of pixels that differ by at most 1e-3 max(|a|, |b|) + 1e-6 in every channel.
 double fraction_equal(const Film& a, const Film& b);
 

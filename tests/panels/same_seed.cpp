@@ -1,26 +1,12 @@
 // With the same random numbers, nearly every pixel of both panels is equal to 1e-3.
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 
-#include "error.h"
 #include "panels_fixture.h"
 
 using namespace diptych;
 using namespace diptych::tests;
 
 namespace {
-
-RenderSettings paired_settings(int width, int height, Integrator integrator, BrdfModel brdf) {
-    RenderSettings s;
-    s.width = width;
-    s.height = height;
-    s.integrator = integrator;
-    s.brdf = brdf;
-    s.seed = 21;
-    s.max_depth = 5;
-    return s;
-}
 
 void check_pair(const std::string& name, const Scene& scene, const RenderSettings& settings, std::uint32_t spp,
                 double least) {
@@ -36,19 +22,6 @@ void check_pair(const std::string& name, const Scene& scene, const RenderSetting
     CHECK(film_totals(cpu).nonfinite == 0);
     CHECK(film_totals(vulkan).nonfinite == 0);
     CHECK(film_totals(vulkan).samples == film_totals(cpu).samples);
-}
-
-/// Every file of the assets that loads, in order.
-std::vector<std::filesystem::path> asset_files() {
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(asset_folder())) {
-        const std::filesystem::path extension = entry.path().extension();
-        if (entry.is_regular_file() && (extension == ".gltf" || extension == ".glb")) {
-            files.push_back(entry.path());
-        }
-    }
-    std::sort(files.begin(), files.end());
-    return files;
 }
 
 }  // namespace
@@ -91,26 +64,4 @@ TEST_CASE("Both panels paint real scenes alike from one seed") {
         check_pair(std::filesystem::path(file).stem(), scene, paired_settings(32, 24, Integrator::path, BrdfModel::ggx),
                    4, 0.995);
     }
-}
-
-TEST_CASE("Both panels paint every real scene alike from one seed", "[nightly]") {
-    NEED_VULKAN();
-    if (asset_folder().empty()) {
-        SKIP_TEST("no real assets at DIPTYCH_ASSETS or ../shared/assets");
-    }
-    int painted = 0;
-    for (const std::filesystem::path& file : asset_files()) {
-        Scene scene;
-        try {
-            scene = load_gltf(file);
-        } catch (const Error& error) {
-            std::printf("%s\n", error.what());
-            continue;
-        }
-        complete_scene(scene);
-        // Lavapipe: 0.947 on the two Bistro scenes, lit by thousands of tiny triangles, whose solid angles round most.
-        check_pair(file.stem(), scene, paired_settings(24, 18, Integrator::path, BrdfModel::ggx), 4, 0.93);
-        ++painted;
-    }
-    CHECK(painted > 20);
 }
