@@ -57,6 +57,9 @@ int run_generate(const Options& options) {
         throw Error(fmt::format("{}: a scene is written as .gltf or .glb", options.output));
     }
     check_file_can_be_created(options.output);
+    if (extension == ".gltf") {
+        check_file_can_be_created(std::filesystem::path(options.output).replace_extension(".bin"));
+    }
     const GeneratedScene generated = generate_scene(options.name, options.generate);
     write_gltf(generated.scene, options.output);
     const std::string arguments = generated.recommended_arguments;

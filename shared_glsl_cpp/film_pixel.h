@@ -25,7 +25,8 @@ struct FilmMoments {
 };
 ASSERT_SIZE(FilmMoments, 36);
 
-/// First-hit sums, over samples: misses add zero. `samples` is FilmPixel's plus its nonfinite.
+/// Means of the first hit over all samples, dropped ones included; a miss counts as zero. Running means, not sums, so that they hold
+/// for any number of samples.
 struct FilmFirstHit {
     vec3 albedo;
     vec3 normal;  // shading normal, world
@@ -85,10 +86,12 @@ FN void film_add_moments(INOUT(FilmMoments) moments, vec3 radiance, uint samples
     compensated_add(moments.sum_squares, moments.compensation, deviation * deviation);
 }
 
-FN void film_add_first_hit(INOUT(FilmFirstHit) film, IN(FirstHit) hit) {
-    film.albedo += hit.albedo;
-    film.normal += hit.normal;
-    film.depth += hit.depth;
+/// `samples` is the count that already includes this one.
+FN void film_add_first_hit(INOUT(FilmFirstHit) film, IN(FirstHit) hit, uint samples) {
+    float share = 1.0f / float(samples);
+    film.albedo += share * (hit.albedo - film.albedo);
+    film.normal += share * (hit.normal - film.normal);
+    film.depth += share * (hit.depth - film.depth);
 }
 
 SHARED_END

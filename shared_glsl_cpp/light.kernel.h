@@ -57,6 +57,12 @@ FN vec3 environment_radiance(vec3 direction) {
     return vec3(0.0f, 0.0f, 0.0f);
 }
 
+/// Density per solid angle, pick included, with which sample_environment finds `direction` in a texel of this probability.
+FN float pdf_environment_texel(float texel_pmf, vec3 direction) {
+    float sin_theta = sqrt(direction.x * direction.x + direction.z * direction.z);  // keeps its digits at the poles
+    return constants.environment.pmf * pdf_environment_solid_angle(texel_pmf, constants.environment.size, sin_theta);
+}
+
 /// Density per solid angle, pick included, with which sample_environment finds `direction`.
 FN float pdf_environment(vec3 direction) {
     if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
@@ -64,8 +70,7 @@ FN float pdf_environment(vec3 direction) {
         vec2 uv = environment_uv(direction, constants.environment.rotation);
         int x = int(min(uv.x * float(size.x), float(size.x - 1u)));
         int y = int(min(uv.y * float(size.y), float(size.y - 1u)));
-        float sin_theta = safe_sqrt(1.0f - direction.y * direction.y);
-        return constants.environment.pmf * pdf_environment_solid_angle(environment_texel(x, y).w, size, sin_theta);
+        return pdf_environment_texel(environment_texel(x, y).w, direction);
     }
     return constants.environment.pmf * (0.25f * INV_PI);
 }
@@ -81,10 +86,12 @@ FN LightSample sample_environment(IN(Sampler) random, uint dimension, vec2 u) {
         float x = (float(texel % size.x) + u.x) / float(size.x);
         float y = (float(texel / size.x) + u.y) / float(size.y);
         s.direction = environment_direction(vec2(x, y), constants.environment.rotation);
+        // Of the texel picked, though its edge may round into a dimmer neighbour.
+        s.pdf = pdf_environment_texel(load_environment_texels(texel).w, s.direction);
     } else {
         s.direction = sample_uniform_sphere(u);
+        s.pdf = pdf_environment(s.direction);
     }
-    s.pdf = pdf_environment(s.direction);
     s.radiance = environment_radiance(s.direction);
     return s;
 }

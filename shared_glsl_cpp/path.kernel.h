@@ -57,6 +57,9 @@ FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
     return pdf_emitter(load_emissive_triangles(first + s.primitive), reference, s.position);
 }
 
+/// Whether light adds nothing. NaN is not black: it has to reach the film, which counts it.
+FN bool is_black(vec3 radiance) { return radiance.x == 0.0f && radiance.y == 0.0f && radiance.z == 0.0f; }
+
 /// One sampled light, all but its visibility: `radiance` is what it adds where the shadow ray is free. Where that is black, no ray
 /// is needed.
 struct DirectLight {
@@ -73,7 +76,7 @@ FN DirectLight sample_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) b
     direct.direction = bsdf.geometric_normal;
     direct.t_max = 0.0f;
     LightSample light = sample_light(position, draws, random, dimension);
-    if (!(light.pdf > 0.0f) || !(max_component(light.radiance) > 0.0f)) {
+    if (!(light.pdf > 0.0f) || is_black(light.radiance)) {
         return direct;
     }
     BsdfValue f = surface_bsdf_eval_pdf(bsdf, seen, light.direction, features());
@@ -208,7 +211,7 @@ FN bool extend_path(INOUT(PathState) path) {
     path.depth = depth + 1u;
 
     // Last, so that a GPU need not keep the surface and its BSDF while the shadow ray is traced.
-    if (max_component(direct.radiance) > 0.0f) {
+    if (!is_black(direct.radiance)) {
         path.found.rays += 1u;
         if (!trace_any(path.origin, direct.direction, direct.t_max, ray_alpha_key(path.random, 2u * depth + 1u))) {
             path.found.radiance += direct.radiance;
@@ -231,7 +234,7 @@ FN void add_path(IN(PathSample) s, INOUT(FilmPixel) film, INOUT(FilmMoments) mom
         film_add_moments(moments, s.radiance, film.samples);
     }
     if (feature(FEATURE_FIRST_HIT_LAYERS)) {
-        film_add_first_hit(first_hit, s.first_hit);
+        film_add_first_hit(first_hit, s.first_hit, film.samples + film.nonfinite);
     }
 }
 

@@ -23,14 +23,10 @@ void develop_first_hits(const Film& film, LayeredImage& layers) {
     layers.normal = make_image(film.width, film.height, channels);
     layers.depth = make_image(film.width, film.height, 1);
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        const double samples = static_cast<double>(film.pixels[i].samples) + film.pixels[i].nonfinite;
-        if (samples == 0) {
-            continue;
-        }
         const shared::FilmFirstHit& hit = film.first_hits[i];
-        store(*layers.albedo, i, {hit.albedo.x / samples, hit.albedo.y / samples, hit.albedo.z / samples});
-        store(*layers.normal, i, {hit.normal.x / samples, hit.normal.y / samples, hit.normal.z / samples});
-        layers.depth->data[i] = static_cast<float>(hit.depth / samples);
+        store(*layers.albedo, i, {hit.albedo.x, hit.albedo.y, hit.albedo.z});
+        store(*layers.normal, i, {hit.normal.x, hit.normal.y, hit.normal.z});
+        layers.depth->data[i] = hit.depth;
     }
 }
 

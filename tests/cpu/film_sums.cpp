@@ -59,3 +59,14 @@ TEST_CASE("Film sums hold over ten million samples") {
     }
     CHECK(std::abs(naive / static_cast<float>(n) - 0.1F) > 1e-4F);
 }
+
+TEST_CASE("First-hit means hold over ten million samples") {
+    shared::FilmFirstHit film{};
+    const shared::FirstHit hit{shared::vec3(0.18F, 0.8F, 1.0F), shared::vec3(0, -1, 0), 10.3F};
+    for (std::uint32_t n = 1; n <= 10'000'000; ++n) {
+        shared::film_add_first_hit(film, hit, n);
+    }
+    CHECK(film.albedo == hit.albedo);
+    CHECK(film.normal == hit.normal);
+    CHECK(film.depth == hit.depth);
+}
