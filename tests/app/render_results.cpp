@@ -94,7 +94,7 @@ TEST_CASE("the EXR's stored command repeats its picture to the bit", "[app]") {
     CHECK(first.metadata.at("program").find("commit") != std::string::npos);
 }
 
-TEST_CASE("a seed gives one picture, whatever the threads; another seed another", "[app]") {
+TEST_CASE("a seed gives one picture, whatever the threads, and another seed another", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const std::vector<std::string> common = {"--spp", "4", "--size", "40", "--seed"};
@@ -111,7 +111,7 @@ TEST_CASE("a seed gives one picture, whatever the threads; another seed another"
     CHECK(with("6", "2").color.data != two.color.data);
 }
 
-TEST_CASE("EXR has the layers, unless told otherwise; PNG and HDR have the picture", "[app]") {
+TEST_CASE("EXR has the layers, unless told otherwise, and PNG and HDR have the picture", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const LayeredImage full = rendered(folder, scene, "full.exr", {"--spp", "2", "--size", "16"});
@@ -150,7 +150,7 @@ TEST_CASE("a scene without light or camera is seen under a neutral sky, with a w
     CHECK(read_image(folder.file("out.exr")).color.at(0, 0, 0) == 0);
 }
 
-TEST_CASE("--time ends on time", "[app]") {
+TEST_CASE("a render with --time ends on time", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const ProcessResult result = render(folder, scene, "out.exr", {"--time", "1.5", "--size", "32", "--json"});

@@ -29,7 +29,7 @@ TEST_CASE("The exponential map is 1 - exp(-radiance)", "[image]") {
     CHECK(srgb_decoded(display.data[0]) == Approx(1.0 - std::exp(-1.4)).epsilon(1e-3));
 }
 
-TEST_CASE("Every tone map is finite, in [0, 1] once clamped, and does not darken with radiance", "[image]") {
+TEST_CASE("Every tone map is finite, in 0 to 1 once clamped, and does not darken with radiance", "[image]") {
     for (const ToneMap op :
          {ToneMap::None, ToneMap::Exponential, ToneMap::Uncharted2, ToneMap::Aces, ToneMap::PbrNeutral}) {
         float previous = -1.0f;

@@ -78,7 +78,7 @@ TEST_CASE("A device is chosen by index and by a part of its name, whatever the c
     CHECK(describe_device(choose_device(opened.instance, part)).name == name);
 }
 
-TEST_CASE("The best device is the most capable usable one; one that lacks something is refused with the list") {
+TEST_CASE("The best device is the most capable usable one, and one that lacks something is refused with the list") {
     const VulkanDeviceInfo big{
         .name = "Big", .type = "discrete", .driver = {}, .lacks = {"VK_KHR_ray_tracing_pipeline", "feature x"}};
     const VulkanDeviceInfo slow{.name = "Slow", .type = "cpu", .driver = {}, .usable = true, .lacks = {}};

@@ -36,7 +36,7 @@ TEST_CASE("A pipeline cache file is read back whole, or not at all once it is da
     std::filesystem::remove_all(path.parent_path().parent_path());
 }
 
-TEST_CASE("A pipeline cache is saved and opened again; a folder that cannot be written to is no error") {
+TEST_CASE("A pipeline cache is saved and opened again, and a folder that cannot be written to is no error") {
     NEED_DEVICE();
     const std::filesystem::path path = scratch_file();
     const Gpu gpu = open_gpu("", test_options().validation);

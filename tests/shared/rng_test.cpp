@@ -18,7 +18,7 @@ TEST_CASE("pcg4d and hash_word give the words of the published definitions") {
     CHECK(hash_word(12345) == 0x912efcf7u);
 }
 
-TEST_CASE("unit_float covers [0, 1) and never reaches 1") {
+TEST_CASE("unit_float covers 0 to 1 and never reaches 1") {
     CHECK(unit_float(0) == 0);
     CHECK(unit_float(0xffu) == 0);
     CHECK(unit_float(0x100u) == 0x1p-24f);
