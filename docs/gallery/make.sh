@@ -5,8 +5,8 @@ program=$1 scenes=$2 folder=$3
 mkdir -p "$folder"
 render() { "$program" render "$@" 2>/dev/null; }
 
-render "$scenes/cornell.gltf" --backend cpu --seed 1 --size 400x400 --spp 256 -o "$folder/cornell-cpu.exr"
-render "$scenes/cornell.gltf" --backend vulkan --seed 2 --size 400x400 --spp 256 -o "$folder/cornell-vulkan.exr"
+render "$scenes/cornell.gltf" --backend cpu --seed 1 --size 240x240 --spp 256 -o "$folder/cornell-cpu.exr"
+render "$scenes/cornell.gltf" --backend vulkan --seed 2 --size 240x240 --spp 256 -o "$folder/cornell-vulkan.exr"
 "$program" compare "$folder/cornell-cpu.exr" "$folder/cornell-vulkan.exr" -o "$folder/cornell-panels.png"
 
 vulkan() { name=$1; shift; render "$@" --backend vulkan -o "$folder/$name.png"; }
@@ -19,7 +19,7 @@ vulkan furnace "$scenes/furnace.gltf" --size 240x180 --spp 4096 --max-depth 32
 vulkan normal-map "$scenes/normal-map.gltf" --size 480x320 --spp 4096 --tonemap aces
 vulkan normal-map-grazing "$scenes/normal-map.gltf" --camera grazing --size 480x320 --spp 4096 --tonemap aces
 vulkan courtyard "$scenes/courtyard.gltf" --env 1.8,2.1,2.6 --size 576x384 --spp 4096 --tonemap uncharted2
-vulkan mirror-maze "$scenes/mirror-maze.gltf" --size 480x320 --spp 16384 --max-depth 32 --tonemap exponential
+vulkan mirror-maze "$scenes/mirror-maze.gltf" --size 432x288 --spp 16384 --max-depth 32 --tonemap exponential
 "$program" generate many-lights --count 100000 -o "$folder/many-lights.glb"
-vulkan many-lights "$folder/many-lights.glb" --size 576x384 --spp 8192 --tonemap aces
+vulkan many-lights "$folder/many-lights.glb" --size 480x320 --spp 8192 --tonemap aces
 rm -f "$folder/many-lights.glb" "$folder"/cornell-*.exr
