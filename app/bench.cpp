@@ -92,7 +92,7 @@ void run_rounds(std::vector<Entry>& entries, const Options& options) {
         entry.rays_per_frame /= options.frames;
     }
     for (Entry& entry : entries) {
-        entry.traversal = entry.renderer->bench_traversal(1);  // medians of its own repeats
+        entry.traversal = entry.renderer->bench_traversal(options.spp);  // medians of its own repeats
     }
 }
 

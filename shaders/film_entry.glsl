@@ -1,5 +1,6 @@
-// main() of an integrator. Each sample is traced and then added to its pixel's film, so that no film is kept while rays are. An
-// invocation whose path ends begins its next sample at once, so that it need not wait for its neighbours' longer paths.
+// main() of an integrator. Each sample is traced and then added to its pixel's film, so that no film is kept while rays are. All rays
+// are traced in one place: an invocation whose path ends begins its next sample, and one that needs no shadow ray goes on along its
+// path, while others still trace theirs.
 void add_to_film(uint index, PathSample path) {
     FilmPixel film = addresses.film_pixels.data[index];
     FilmMoments moments;
@@ -30,7 +31,16 @@ void main() {
     }
     PathState path = begin_path(pixel, sample_index);
     while (true) {
-        if (extend_path(path)) {
+        bool shadow = awaits_shadow_ray(path);
+        vec3 direction = shadow ? path.direct.direction : path.direction;
+        float t_max = shadow ? path.direct.t_max : INFINITE_DISTANCE;
+        Hit hit = trace_either(path.origin, direction, t_max, shadow, shadow ? shadow_ray_key(path) : next_ray_key(path));
+        if (shadow) {
+            settle_direct_light(path, hit.instance != NONE);
+        } else {
+            extend_path(path, hit);
+        }
+        if (path.goes_on || awaits_shadow_ray(path)) {
             continue;
         }
         add_to_film(index, path.found);

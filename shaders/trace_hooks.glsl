@@ -45,6 +45,18 @@ Hit trace_closest(vec3 origin, vec3 direction, uint alpha_key) {
     return closest_payload;
 }
 
+// The nearest hit, or with `any` some hit before t_max: then only `instance` means something, and it is NONE where nothing is hit.
+Hit trace_either(vec3 origin, vec3 direction, float t_max, bool any, uint alpha_key) {
+    if (RECORD_RAYS != 0u) {
+        record_ray(origin, direction, any ? t_max : -1.0f, alpha_key);
+    }
+    uint flags = any ? gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT : 0u;
+    closest_payload.instance = alpha_key;  // stays, and is not NONE, where a hit is found and the closest-hit shader skipped
+    traceRayEXT(scene_structure, opacity_flags() | flags, 0xffu, 0u, 0u, 0u, origin, 0.0f, direction, t_max,
+                CLOSEST_PAYLOAD);
+    return closest_payload;
+}
+
 bool trace_any(vec3 origin, vec3 direction, float t_max, uint alpha_key) {
     if (RECORD_RAYS != 0u) {
         record_ray(origin, direction, t_max, alpha_key);

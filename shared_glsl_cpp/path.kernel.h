@@ -19,12 +19,12 @@ FN float survival_probability(vec3 throughput, uint depth) {
     return depth < 3u ? 1.0f : min(max_component(throughput), 0.95f);
 }
 
-/// Names one ray for the hash that decides stochastic alpha.
+/// Names one ray for the hash that decides stochastic alpha. Never NONE.
 FN uint ray_alpha_key(IN(Sampler) random, uint ray) {
     if (!feature(FEATURE_ALPHA)) {
         return 0u;
     }
-    return pcg4d(uvec4(random.key.x, random.key.y, random.sample_index, 0x416c7068u ^ ray)).x;
+    return pcg4d(uvec4(random.key.x, random.key.y, random.sample_index, 0x416c7068u ^ ray)).x >> 1;
 }
 
 /// Weight of finding a light by sampling the material with density `pdf` where light sampling had density `pdf_light`.
@@ -61,20 +61,25 @@ FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
 FN bool is_black(vec3 radiance) { return radiance.x == 0.0f && radiance.y == 0.0f && radiance.z == 0.0f; }
 
 /// One sampled light, all but its visibility: `radiance` is what it adds where the shadow ray is free. Where that is black, no ray
-/// is needed.
+/// is needed. The ray starts where the path's next one does.
 struct DirectLight {
     vec3 radiance;
     vec3 direction;  // of the shadow ray
     float t_max;
 };
 
+FN DirectLight no_direct_light() {
+    DirectLight direct;
+    direct.radiance = vec3(0.0f, 0.0f, 0.0f);
+    direct.direction = vec3(0.0f, 0.0f, 1.0f);
+    direct.t_max = 0.0f;
+    return direct;
+}
+
 /// `origin` is where rays leave the surface.
 FN DirectLight sample_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) bsdf, IN(SeenBsdf) seen,
                                    IN(FourPairs) draws, IN(Sampler) random, uint dimension) {
-    DirectLight direct;
-    direct.radiance = vec3(0.0f, 0.0f, 0.0f);
-    direct.direction = bsdf.geometric_normal;
-    direct.t_max = 0.0f;
+    DirectLight direct = no_direct_light();
     LightSample light = sample_light(position, draws, random, dimension);
     if (!(light.pdf > 0.0f) || is_black(light.radiance)) {
         return direct;
@@ -96,7 +101,9 @@ struct PathState {
     vec3 reference;        // the last vertex, from which lights were sampled too
     float pdf_direction;   // of `direction`, per solid angle
     bool only_strategy;    // no light sampling could have found what this ray finds
+    bool goes_on;
     uint depth;            // scattering events so far
+    DirectLight direct;    // sampled at the last vertex, not yet tested for visibility
 };
 
 FN PathState begin_path(uvec2 pixel, uint sample_index) {
@@ -121,7 +128,9 @@ FN PathState begin_path(uvec2 pixel, uint sample_index) {
     path.reference = path.origin;
     path.pdf_direction = 0.0f;
     path.only_strategy = true;
+    path.goes_on = true;
     path.depth = 0u;
+    path.direct = no_direct_light();
     return path;
 }
 
@@ -148,15 +157,19 @@ FN void add_emission(INOUT(PathState) path, IN(Surface) surface, IN(Material) ma
     }
 }
 
-/// Traces the path's ray, adds what light it finds and what a sampled light sends to where it ends, and scatters it there. Returns
-/// whether the path goes on.
-FN bool extend_path(INOUT(PathState) path) {
+FN uint next_ray_key(IN(PathState) path) { return ray_alpha_key(path.random, 2u * path.depth); }
+
+FN uint shadow_ray_key(IN(PathState) path) { return ray_alpha_key(path.random, 2u * path.depth - 1u); }
+
+/// The path's ray has been traced: adds what light it found, samples a light for where it ended, and scatters it there. Visibility
+/// of the sampled light is left to the caller, so that a GPU has one place where it traces and keeps no surface across it.
+FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     uint depth = path.depth;
-    Hit hit = trace_closest(path.origin, path.direction, ray_alpha_key(path.random, 2u * depth));
     path.found.rays += 1u;
+    path.goes_on = false;
     if (hit.instance == NONE) {
         add_environment(path);
-        return false;
+        return;
     }
     vec3 wo = -path.direction;
     LOCAL(Instance) instance = load_instances(hit.instance);
@@ -167,7 +180,7 @@ FN bool extend_path(INOUT(PathState) path) {
     bool last = depth == constants.max_depth || (material.flags & MATERIAL_UNLIT) != 0u;
     bool wants_layers = feature(FEATURE_FIRST_HIT_LAYERS) && depth == 0u;
     if (last && !wants_layers) {
-        return false;
+        return;
     }
     SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
     if (wants_layers) {
@@ -176,18 +189,16 @@ FN bool extend_path(INOUT(PathState) path) {
         path.found.first_hit.depth = hit.t;
     }
     if (last) {
-        return false;
+        return;
     }
 
     SeenBsdf seen = see_bsdf(bsdf, wo, features());
     path.origin = offset_ray(surface.position, bsdf.geometric_normal);  // nothing is scattered through the surface
     uint dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
     FourPairs draws = sample_bits_four_pairs(path.random, dimension);
-    DirectLight direct;
-    direct.radiance = vec3(0.0f, 0.0f, 0.0f);
     if (feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features())) {
-        direct = sample_direct_light(surface.position, path.origin, bsdf, seen, draws, path.random, dimension);
-        direct.radiance = path.throughput * direct.radiance;
+        path.direct = sample_direct_light(surface.position, path.origin, bsdf, seen, draws, path.random, dimension);
+        path.direct.radiance = path.throughput * path.direct.radiance;
     }
 
     vec2 u_direction = vec2(unit_float(draws.first.x), unit_float(draws.second.x));
@@ -209,20 +220,29 @@ FN bool extend_path(INOUT(PathState) path) {
     path.reference = surface.position;
     path.direction = next.direction;
     path.depth = depth + 1u;
-
-    // Last, so that a GPU need not keep the surface and its BSDF while the shadow ray is traced.
-    if (!is_black(direct.radiance)) {
-        path.found.rays += 1u;
-        if (!trace_any(path.origin, direct.direction, direct.t_max, ray_alpha_key(path.random, 2u * depth + 1u))) {
-            path.found.radiance += direct.radiance;
-        }
-    }
-    return goes_on;
+    path.goes_on = goes_on;
 }
 
+FN bool awaits_shadow_ray(IN(PathState) path) { return !is_black(path.direct.radiance); }
+
+/// The shadow ray has been traced.
+FN void settle_direct_light(INOUT(PathState) path, bool occluded) {
+    path.found.rays += 1u;
+    if (!occluded) {
+        path.found.radiance += path.direct.radiance;
+    }
+    path.direct.radiance = vec3(0.0f, 0.0f, 0.0f);
+}
+
+/// One path from its camera to its end. The Vulkan backend takes these steps by itself, to trace in one place (film_entry.glsl).
 FN PathSample trace_path(uvec2 pixel, uint sample_index) {
     PathState path = begin_path(pixel, sample_index);
-    while (extend_path(path)) {
+    while (path.goes_on) {
+        extend_path(path, trace_closest(path.origin, path.direction, next_ray_key(path)));
+        if (awaits_shadow_ray(path)) {
+            settle_direct_light(
+                path, trace_any(path.origin, path.direct.direction, path.direct.t_max, shadow_ray_key(path)));
+        }
     }
     return path.found;
 }

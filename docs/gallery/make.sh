@@ -5,8 +5,8 @@ program=$1 scenes=$2 folder=$3
 mkdir -p "$folder"
 render() { "$program" render "$@" 2>/dev/null; }
 
-render "$scenes/cornell.gltf" --backend cpu --seed 1 --size 240x240 --spp 256 -o "$folder/cornell-cpu.exr"
-render "$scenes/cornell.gltf" --backend vulkan --seed 2 --size 240x240 --spp 256 -o "$folder/cornell-vulkan.exr"
+render "$scenes/cornell.gltf" --backend cpu --seed 1 --size 224x224 --spp 256 -o "$folder/cornell-cpu.exr"
+render "$scenes/cornell.gltf" --backend vulkan --seed 2 --size 224x224 --spp 256 -o "$folder/cornell-vulkan.exr"
 "$program" compare "$folder/cornell-cpu.exr" "$folder/cornell-vulkan.exr" -o "$folder/cornell-panels.png"
 
 vulkan() { name=$1; shift; render "$@" --backend vulkan -o "$folder/$name.png"; }
