@@ -23,6 +23,7 @@ struct Options {
     std::string name;
     std::string output;
     GenerateOptions generate;
+    bool sets_street = false;  // --count or --seed was given
     bool list = false;
     bool json = false;
 };
@@ -48,6 +49,9 @@ int run_generate(const Options& options) {
     }
     if (options.name.empty()) {
         throw Error("generate: wants the NAME of a scene; see diptych generate --list");
+    }
+    if (options.sets_street && options.name != "many-lights") {
+        throw Error(fmt::format("generate {}: --count and --seed are for many-lights alone", options.name));
     }
     if (options.output.empty()) {
         throw Error(fmt::format("generate {}: wants a file to write, -o FILE", options.name));
@@ -79,14 +83,18 @@ void add_generate(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
     command->add_option("name", options->name, "Scene; see --list");
     command->add_option("-o,--output", options->output, "File to write: .gltf (with a .bin beside it) or .glb");
-    command->add_option("--count", options->generate.count, "many-lights: emitters")
-        ->check(CLI::Range(1U, 100000000U))
-        ->capture_default_str();
-    command->add_option("--seed", options->generate.seed, "many-lights: which street")->capture_default_str();
+    CLI::Option* count = command->add_option("--count", options->generate.count, "many-lights: emitters")
+                             ->check(CLI::Range(1U, 100000000U))
+                             ->capture_default_str();
+    CLI::Option* seed = command->add_option("--seed", options->generate.seed, "many-lights: which street")
+                            ->capture_default_str();
     command->add_flag("--list", options->list, "Say which scenes there are");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     command->footer(examples);
-    command->callback([options, &run] { run = [options] { return run_generate(*options); }; });
+    command->callback([options, count, seed, &run] {
+        options->sets_street = count->count() > 0 || seed->count() > 0;
+        run = [options] { return run_generate(*options); };
+    });
 }
 
 }  // namespace diptych::app

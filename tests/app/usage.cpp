@@ -59,6 +59,8 @@ TEST_CASE("generate refuses what it cannot do", "[app]") {
     check_refusal(run_diptych(folder, {"generate", "cornel", "-o", folder.file("a.gltf")}), 2, {"cornel", "veach-mis"});
     check_refusal(run_diptych(folder, {"generate", "many-lights", "-o", folder.file("a.gltf"), "--count", "0"}), 2,
                   {"--count"});
+    check_refusal(run_diptych(folder, {"generate", "cornell", "-o", folder.file("a.gltf"), "--count", "5"}), 2,
+                  {"cornell", "--count", "many-lights"});
 }
 
 TEST_CASE("generate writes every scene that it lists", "[app]") {
