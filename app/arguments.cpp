@@ -75,6 +75,11 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
         ->check(finite_number());
     command.add_option("--aperture", request.lens_radius, "Radius of the lens, metres")->check(non_negative_number());
     command.add_option("--focus", request.focus_distance, "Distance in focus, metres")->check(positive_number());
+    command
+        .add_option("--ignore-extension", request.ignored_extensions,
+                    "Load the file without this glTF extension, though it requires it; may be repeated")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
     command.add_flag("--generic", request.settings.generic,
                      "Leave nothing out that the scene does not need; same image");
 }
@@ -84,7 +89,7 @@ void add_backend_options(CLI::App& command, RenderArguments& arguments) {
     command.add_option("--backend", request.backend, "cpu or vulkan")->capture_default_str();
     command.add_option("--device", request.device, "Vulkan device by index or name; the best by default");
     command.add_option("--threads", request.threads, "CPU threads; one a core by default")->check(CLI::Range(1, 4096));
-    command.add_flag("--validation", request.validation, "Run Vulkan's validation layers");
+    command.add_flag("--validation", request.validation, "Run Vulkan's validation layers; exit 1 if they have anything to say");
 }
 
 void resolve_names(RenderArguments& arguments) {

@@ -1,7 +1,11 @@
 #include "backend.h"
 
+#include <fmt/format.h>
+
 #include "backend/cpu_renderer.h"
+#include "command.h"
 #include "error.h"
+#include "report.h"
 #if DIPTYCH_VULKAN
 #include "vulkan_renderer.h"
 #endif
@@ -20,6 +24,16 @@ std::unique_ptr<Renderer> make_renderer(const PackedScene& packed, const RenderR
 #else
     throw Error("--backend vulkan: this program was built without it (DIPTYCH_VULKAN=OFF); use --backend cpu");
 #endif
+}
+
+int exit_code_after_validation(int exit_code) {
+#if DIPTYCH_VULKAN
+    if (const std::uint64_t count = validation_message_count(); count > 0) {
+        report_error(fmt::format("validation: the layer had {} message{}", count, count == 1 ? "" : "s"));
+        return exit_code == exit_done ? exit_check_failed : exit_code;
+    }
+#endif
+    return exit_code;
 }
 
 }  // namespace diptych::app

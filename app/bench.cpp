@@ -10,6 +10,7 @@
 #include "render/settings_names.h"
 #include "report.h"
 #include "scene_setup.h"
+#include "step_line.h"
 
 namespace diptych::app {
 
@@ -53,9 +54,10 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-std::vector<Entry> make_entries(Options& options, const Scene& scene) {
+std::vector<Entry> make_entries(Options& options, const Scene& scene, StepLine& line) {
     std::vector<Entry> entries;
     for (const std::string& name : options.integrators) {
+        line.begin(name + ", building");
         RenderRequest request = options.arguments.request;
         request.settings.integrator = integrator_from_name(name);
         request.settings.sample_count = options.spp * static_cast<std::uint32_t>(options.frames + 1);
@@ -76,14 +78,16 @@ void measure(Entry& entry, std::uint32_t frame, std::uint32_t spp) {
 }
 
 /// The first frame of each warms up and does not count.
-void run_rounds(std::vector<Entry>& entries, const Options& options) {
+void run_rounds(std::vector<Entry>& entries, const Options& options, StepLine& line) {
     for (Entry& entry : entries) {
+        line.begin(fmt::format("{}, warming up", name_of(entry.integrator)));
         measure(entry, 0, options.spp);
         entry.frame_seconds.clear();
         entry.rays_per_frame = -static_cast<double>(film_totals(entry.renderer->film()).rays);
     }
     for (int frame = 1; frame <= options.frames; ++frame) {
         for (Entry& entry : entries) {
+            line.begin(fmt::format("{}, frame {}", name_of(entry.integrator), frame));
             measure(entry, static_cast<std::uint32_t>(frame), options.spp);
         }
     }
@@ -92,6 +96,7 @@ void run_rounds(std::vector<Entry>& entries, const Options& options) {
         entry.rays_per_frame /= options.frames;
     }
     for (Entry& entry : entries) {
+        line.begin(fmt::format("{}, bare traversal", name_of(entry.integrator)));
         entry.traversal = entry.renderer->bench_traversal(options.spp);  // medians of its own repeats
     }
 }
@@ -170,8 +175,13 @@ int run_bench(Options options) {
         integrator_from_name(name);
     }
     const Scene scene = prepare_scene(options.arguments);
-    std::vector<Entry> entries = make_entries(options, scene);
-    run_rounds(entries, options);
+    std::vector<Entry> entries;
+    {
+        // Building, warming up, the frames and the bare traversal of each.
+        StepLine line(static_cast<int>(options.integrators.size()) * (options.frames + 3));
+        entries = make_entries(options, scene, line);
+        run_rounds(entries, options, line);
+    }
     const std::vector<Figures> figures = evaluate(entries, options);
     if (options.json) {
         print_json(to_json(entries, figures, options));

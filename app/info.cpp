@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "arguments.h"
+#include "backend.h"
 #include "command.h"
 #include "devices_info.h"
 #include "error.h"
@@ -20,8 +21,10 @@ namespace {
 constexpr const char* examples = R"(Examples:
   diptych info scene.gltf
   diptych info scene.gltf --integrator brdf --brdf blinn-phong --json
+  diptych info scene.gltf --backend vulkan --size 1920x1080
   diptych info --devices
-What a scene needs depends on the integrator, the BRDF, the environment and the size, so the options of render apply.)";
+What a scene needs depends on the integrator, the BRDF, the environment and the size, so the options of render apply.
+Bytes are what render holds with them: acceleration structures are built on the backend, to know their size.)";
 
 struct Options {
     RenderArguments arguments;
@@ -79,7 +82,9 @@ std::vector<BufferSize> buffer_sizes(const PackedScene& packed, const RenderSett
     return sizes;
 }
 
-nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, const RenderSettings& settings) {
+/// The renderer is built for the size of its acceleration structures; scratch memory of builds is not counted.
+nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, const RenderRequest& request) {
+    const RenderSettings& settings = request.settings;
     const Counts counts = count_triangles(scene);
     const Bounds bounds = scene_bounds(scene);
     nlohmann::ordered_json json;
@@ -111,7 +116,11 @@ nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, con
         json["buffers"][buffer.name] = buffer.bytes;
         bytes += buffer.bytes;
     }
-    json["bytes"] = bytes;
+    const std::unique_ptr<Renderer> renderer = make_renderer(packed, request);
+    json["backend"] = renderer->backend();
+    json["device"] = renderer->device();
+    json["acceleration_structures"] = renderer->costs().acceleration_bytes;
+    json["bytes"] = bytes + renderer->costs().acceleration_bytes;
     json["warnings"] = scene.warnings;
     return json;
 }
@@ -139,11 +148,15 @@ void print_text(const nlohmann::ordered_json& json) {
     }
     fmt::print("  needs       {}\n", words(json.at("features")));
     fmt::print("  left out    {}\n", words(json.at("left_out")));
-    fmt::print("  takes       {} of buffers at {}x{}, acceleration structures aside\n",
-               byte_text(json.at("bytes").get<double>()), number("width"), number("height"));
+    fmt::print("  takes       {} at {}x{} on {}\n", byte_text(json.at("bytes").get<double>()), number("width"),
+               number("height"), json.at("backend").get<std::string>());
+    const auto part = [](const std::string& name, const nlohmann::ordered_json& bytes) {
+        fmt::print("    {:<23} {:>12}\n", name, byte_text(bytes.get<double>()));
+    };
     for (const auto& [name, bytes] : json.at("buffers").items()) {
-        fmt::print("    {:<20} {:>12}\n", name, byte_text(bytes.get<double>()));
+        part(name, bytes);
     }
+    part("acceleration structures", json.at("acceleration_structures"));
 }
 
 int run_info(Options options) {
@@ -158,7 +171,7 @@ int run_info(Options options) {
     request.settings.standard_error = options.layers;
     request.settings.first_hit_layers = options.layers;
     const Scene scene = prepare_scene(options.arguments);
-    const nlohmann::ordered_json json = gather(scene, pack_scene(scene, request.settings), request.settings);
+    const nlohmann::ordered_json json = gather(scene, pack_scene(scene, request.settings), request);
     if (options.json) {
         print_json(json);
     } else {
@@ -176,6 +189,7 @@ void add_info(CLI::App& app, Run& run) {
     command->add_flag("--devices", options->devices, "List the devices, and what each lacks");
     add_integrator_option(*command, options->arguments);
     add_scene_options(*command, options->arguments);
+    add_backend_options(*command, options->arguments);
     command->add_flag("--layers,!--no-layers", options->layers, "Count the layers beside colour; on by default");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     command->footer(examples);

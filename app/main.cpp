@@ -4,6 +4,7 @@
 #include <new>
 #include <string>
 
+#include "backend.h"
 #include "command.h"
 #include "error.h"
 #include "report.h"
@@ -50,7 +51,7 @@ int run_program(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return usage_error(app, error, argc, argv);
     }
-    return run();
+    return exit_code_after_validation(run());
 }
 
 }  // namespace

@@ -10,18 +10,11 @@
 
 namespace diptych::app {
 
-namespace {
-
-constexpr double terminal_interval = 0.2;
-constexpr double first_sparse_line = 2;
-
 std::string clock_text(double seconds) {
     const long long whole = std::llround(std::ceil(seconds));
     return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
                         : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
-
-}  // namespace
 
 std::string progress_text(const Progress& progress, std::uint32_t target_spp) {
     std::string text =

@@ -7,6 +7,13 @@
 
 namespace diptych::app {
 
+/// Seconds from one redrawing to the next on a terminal, and until the first line elsewhere.
+inline constexpr double terminal_interval = 0.2;
+inline constexpr double first_sparse_line = 2;
+
+/// "1:02", or "1:00:02" from an hour on.
+std::string clock_text(double seconds);
+
 /// "128/1024 spp  12.3 Msamples/s  45.6 Mray/s  ETA 0:12  relMSE 1.2e-03"; `target_spp` 0 is unknown.
 std::string progress_text(const Progress& progress, std::uint32_t target_spp);
 

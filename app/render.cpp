@@ -145,7 +145,7 @@ int run_render(Options options) {
     }
     save(request, develop(film), outcome);
     if (totals.nonfinite > 0) {
-        report_warning(fmt::format("{}: {} of {} samples were not finite, or negative, and were dropped",
+        report_warning(fmt::format("{}: {} of {} samples were not finite, negative or beyond what is summed, and were dropped",
                                    request.output, totals.nonfinite, totals.samples + totals.nonfinite));
     }
     if (options.json) {

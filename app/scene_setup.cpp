@@ -136,7 +136,7 @@ bool has_light(const Scene& scene) {
 
 Scene prepare_scene(RenderArguments& arguments) {
     RenderRequest& request = arguments.request;
-    Scene scene = load_gltf(request.scene);
+    Scene scene = load_gltf(request.scene, {request.ignored_extensions});
     if (scene.name.empty()) {
         scene.name = request.scene;
     }

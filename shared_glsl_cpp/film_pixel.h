@@ -12,10 +12,11 @@ struct FilmPixel {
     vec3 sum;
     vec3 compensation;
     uint samples;     // averaged; dropped ones are in `nonfinite`
-    uint nonfinite;   // dropped: NaN, infinite or negative
-    uint rays;        // traced for this pixel
+    uint nonfinite;   // dropped: NaN, infinite, negative, or more than the sum holds
+    uint rays;        // traced for this pixel, modulo 2^32
+    uint ray_wraps;   // and how often that count began anew
 };
-ASSERT_SIZE(FilmPixel, 36);
+ASSERT_SIZE(FilmPixel, 40);
 
 /// Second moments about `first`, for the layer of standard errors.
 struct FilmMoments {
@@ -68,7 +69,8 @@ FN bool is_bad_sample(vec3 x) { return is_bad_component(x.x) || is_bad_component
 /// Adds one sample; a bad one is dropped and counted. Returns whether it was kept.
 FN bool film_add(INOUT(FilmPixel) pixel, vec3 radiance, uint rays) {
     pixel.rays += rays;
-    if (is_bad_sample(radiance)) {
+    pixel.ray_wraps += pixel.rays < rays ? 1u : 0u;
+    if (is_bad_sample(radiance) || is_bad_sample(pixel.sum + radiance)) {
         pixel.nonfinite += 1u;
         return false;
     }

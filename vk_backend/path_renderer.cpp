@@ -49,7 +49,8 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
     const auto size = glm::ivec2(constants_.size);
     in_context("making the film", [&] { film_ = make_film(*gpu_, size.x, size.y, features_); });
     costs_.build_seconds = seconds_since(start);
-    costs_.bytes = scene_bytes(scene_) + bottom_.bytes + top_.storage.size + film_bytes(film_);
+    costs_.acceleration_bytes = bottom_.bytes + top_.storage.size;
+    costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + film_bytes(film_);
 
     const auto compile_start = std::chrono::steady_clock::now();
     in_context("setting up pipelines", [&] {

@@ -37,7 +37,7 @@ FilmTotals film_totals(const Film& film) {
     for (const shared::FilmPixel& pixel : film.pixels) {
         totals.samples += pixel.samples;
         totals.nonfinite += pixel.nonfinite;
-        totals.rays += pixel.rays;
+        totals.rays += (std::uint64_t{pixel.ray_wraps} << 32U) + pixel.rays;
     }
     return totals;
 }

@@ -1,6 +1,7 @@
 #include "render/render_metadata.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -37,6 +38,9 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
     const auto add = [&](const char* option, const auto& value) {
         command += fmt::format(" {} {}", option, shell_quoted(fmt::format("{}", value)));
     };
+    for (const std::string& extension : request.ignored_extensions) {
+        add("--ignore-extension", extension);
+    }
     add("-o", request.output);
     add("--backend", request.backend);
     if (!request.device.empty()) {
@@ -85,6 +89,7 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("program", outcome.program);
     add("command", repeat_command(request, outcome.spp));
     add("scene", request.scene);
+    add("ignored_extensions", fmt::format("{}", fmt::join(request.ignored_extensions, ",")));
     add("backend", request.backend);
     add("device", outcome.device);
     add("integrator", name_of(settings.integrator));

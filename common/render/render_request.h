@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "render/settings.h"
 
@@ -11,6 +12,7 @@ namespace diptych {
 
 struct RenderRequest {
     std::string scene;   // file
+    std::vector<std::string> ignored_extensions;  // required by the file, lacking here, and done without
     std::string output;  // file
     std::string backend = "cpu";
     std::string device;       // vulkan: index or name; empty is the best

@@ -14,6 +14,7 @@ struct RendererCosts {
     double build_seconds = 0;    // acceleration structures and uploads
     double compile_seconds = 0;  // pipelines
     std::uint64_t bytes = 0;     // buffers, acceleration structures, film
+    std::uint64_t acceleration_bytes = 0;  // of these, the structures
 };
 
 /// The same rays twice: inside the integrator, and alone.

@@ -20,8 +20,9 @@ constexpr std::array<const char*, 7> supported_extensions{
     "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",    "KHR_materials_specular",
     "KHR_materials_unlit", "KHR_mesh_quantization",           "KHR_texture_transform"};
 
-bool is_supported(const std::string& extension) {
-    return std::find(supported_extensions.begin(), supported_extensions.end(), extension) != supported_extensions.end();
+template <class List>
+bool contains(const List& list, const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
 }
 
 std::string one_line(std::string text) {
@@ -180,15 +181,27 @@ std::vector<std::string> strings_of(const Json& root, const char* key) {
     return strings;
 }
 
-void check_extensions(Document& document, const Json& root) {
-    for (const std::string& extension : strings_of(root, "extensionsRequired")) {
-        if (!is_supported(extension)) {
-            fail(document, "extensionsRequired", "needs " + extension + ", which is not supported");
+void check_extensions(Document& document, const Json& root, const std::vector<std::string>& ignored) {
+    const std::vector<std::string> required = strings_of(root, "extensionsRequired");
+    for (const std::string& extension : required) {
+        if (contains(supported_extensions, extension)) {
+            continue;
         }
+        if (!contains(ignored, extension)) {
+            fail(document, "extensionsRequired",
+                 "needs " + extension + ", which is not supported (--ignore-extension " + extension +
+                     " does without it)");
+        }
+        warn(document, "extensionsRequired", extension + " is ignored, as asked for");
     }
     for (const std::string& extension : strings_of(root, "extensionsUsed")) {
-        if (!is_supported(extension)) {
+        if (!contains(supported_extensions, extension) && !contains(required, extension)) {
             warn(document, "extensionsUsed", extension + " is not supported and is left out");
+        }
+    }
+    for (const std::string& extension : ignored) {
+        if (!contains(required, extension) || contains(supported_extensions, extension)) {
+            warn(document, "extensionsRequired", "there is no " + extension + " to ignore: it is not required, or supported");
         }
     }
 }
@@ -225,13 +238,10 @@ std::string label(const char* table, std::size_t index, const std::string& name)
 }
 
 bool declares_extension(const Document& document, const std::string& name) {
-    const auto has = [&](const std::vector<std::string>& list) {
-        return std::find(list.begin(), list.end(), name) != list.end();
-    };
-    return has(document.model.extensionsUsed) || has(document.model.extensionsRequired);
+    return contains(document.model.extensionsUsed, name) || contains(document.model.extensionsRequired, name);
 }
 
-Document read_document(const std::filesystem::path& path) {
+Document read_document(const std::filesystem::path& path, const std::vector<std::string>& ignored_extensions) {
     Document document;
     document.file = path.string();
     document.folder = path.parent_path();
@@ -252,7 +262,7 @@ Document read_document(const std::filesystem::path& path) {
     }
     Json root = parse_json(document, chunks.json);
     check_version(document, root);
-    check_extensions(document, root);
+    check_extensions(document, root, ignored_extensions);
     const Json buffers = take_array(root, "buffers");
     const Json images = take_array(root, "images");
     root.erase("extras");

@@ -42,7 +42,8 @@ std::string label(const char* table, std::size_t index, const std::string& name 
 bool declares_extension(const Document& document, const std::string& name);
 
 /// Reads a .gltf or .glb (told by its content) with its buffers and encoded images. Throws Error where the file, its
-/// JSON or a buffer cannot be read, or where it requires an extension that the import lacks.
-Document read_document(const std::filesystem::path& path);
+/// JSON or a buffer cannot be read, or where it requires an extension that the import lacks and
+/// that is not among the ignored ones.
+Document read_document(const std::filesystem::path& path, const std::vector<std::string>& ignored_extensions = {});
 
 }  // namespace diptych::gltf

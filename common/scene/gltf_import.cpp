@@ -132,9 +132,9 @@ Scene import_document(Document& document) {
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path) {
+Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options) {
     try {
-        Document document = read_document(path);
+        Document document = read_document(path, options.ignored_extensions);
         return import_document(document);
     } catch (const Error&) {
         throw;

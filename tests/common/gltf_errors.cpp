@@ -62,6 +62,25 @@ TEST_CASE("extensions: required ones that are lacking are named, used ones are w
     CHECK_THAT(scene.warnings[1], Catch::Contains("no triangles"));
 }
 
+TEST_CASE("a required extension that is lacking can be ignored by name, and only by name", "[gltf]") {
+    const TemporaryFolder folder;
+    const auto file = folder.write(
+        "two.gltf", root(R"("extensionsUsed":["A_thing","B_thing"],"extensionsRequired":["A_thing","B_thing"])"));
+    CHECK_THAT(refusal(file), Catch::Contains("A_thing") && Catch::Contains("--ignore-extension A_thing"));
+    try {
+        load_gltf(file, {{"A_thing"}});
+        FAIL("was loaded");
+    } catch (const Error& error) {
+        CHECK_THAT(error.what(), Catch::Contains("needs B_thing"));
+    }
+    const Scene scene = load_gltf(file, {{"A_thing", "B_thing", "C_thing"}});
+    REQUIRE(scene.warnings.size() == 4);
+    CHECK_THAT(scene.warnings[0], Catch::Contains("A_thing is ignored"));
+    CHECK_THAT(scene.warnings[1], Catch::Contains("B_thing is ignored"));
+    CHECK_THAT(scene.warnings[2], Catch::Contains("no C_thing to ignore"));
+    CHECK_THAT(scene.warnings[3], Catch::Contains("no triangles"));
+}
+
 TEST_CASE("data outside its buffer is refused, and the message says where", "[gltf]") {
     GltfBuilder builder;
     const int points = builder.triangle();

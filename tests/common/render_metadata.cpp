@@ -13,6 +13,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 RenderRequest request_of_everything() {
     RenderRequest request;
     request.scene = "a scene's.gltf";
+    request.ignored_extensions = {"EXT_one", "EXT_two"};
     request.output = "out.exr";
     request.backend = "vulkan";
     request.device = "1";
@@ -40,7 +41,7 @@ RenderRequest request_of_everything() {
 TEST_CASE("the repeating command holds every setting and survives a shell", "[render]") {
     const std::string command = repeat_command(request_of_everything(), 77);
     INFO(command);
-    CHECK(contains(command, "diptych render 'a scene'\\''s.gltf' -o out.exr "));
+    CHECK(contains(command, "diptych render 'a scene'\\''s.gltf' --ignore-extension EXT_one --ignore-extension EXT_two -o out.exr "));
     for (const char* part :
          {"--backend vulkan", "--device 1", "--integrator direct", "--spp 77", "--size 640x480", "--max-depth 8",
           "--seed 4294967295", "--brdf blinn-phong", "--sampler hammersley", "--sample-count 256", "--mis balance",
@@ -63,6 +64,7 @@ TEST_CASE("metadata tell how the render went", "[render]") {
     CHECK(metadata.at("device") == "a device");
     CHECK(metadata.at("spp") == "77");
     CHECK(metadata.at("seed") == "4294967295");
+    CHECK(metadata.at("ignored_extensions") == "EXT_one,EXT_two");
     CHECK(metadata.at("interrupted") == "yes");
     CHECK(metadata.at("uneven") == "no");
     CHECK(metadata.at("nonfinite") == "3");

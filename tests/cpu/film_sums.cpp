@@ -25,6 +25,23 @@ TEST_CASE("The film drops and counts what is no radiance") {
     CHECK(shared::film_add(pixel, shared::vec3(-0.0F, 1e-40F, 3e38F), 1));
     CHECK(pixel.samples == 1);
     CHECK(pixel.rays == 37);
+    CHECK_FALSE(shared::film_add(pixel, shared::vec3(1, 1, 2e38F), 1));
+    CHECK(pixel.nonfinite == 19);
+    CHECK(pixel.sum == shared::vec3(0, 1e-40F, 3e38F));
+}
+
+TEST_CASE("Rays are counted past 2^32 a pixel") {
+    shared::FilmPixel pixel{};
+    pixel.rays = 0xffffffffU - 9;
+    std::uint64_t rays = pixel.rays;
+    for (const std::uint32_t more : {4U, 5U, 0U, 1U, 0U, 17U, 0xffffffffU, 0xffffffffU}) {
+        shared::film_add(pixel, shared::vec3(1), more);
+        rays += more;
+        Film film;
+        film.pixels = {pixel, pixel};
+        CHECK(film_totals(film).rays == 2 * rays);
+    }
+    CHECK(pixel.ray_wraps == 3);
 }
 
 TEST_CASE("Film sums hold over ten million samples") {

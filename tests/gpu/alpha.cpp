@@ -48,7 +48,7 @@ int count_front(const std::vector<TracedRay>& traced) {
 }  // namespace
 
 TEST_CASE("A mask below its cutoff is passed by closest and by shadow rays, above it is not") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const auto rays = axis_rays(64);
     CHECK(count_front(trace_rays(two_squares(shared::MATERIAL_ALPHA_MASK, 0.4F, shared::FEATURE_ALPHA), rays)) == 0);
     CHECK(count_front(trace_rays(two_squares(shared::MATERIAL_ALPHA_MASK, 0.6F, shared::FEATURE_ALPHA), rays)) == 64);
@@ -56,7 +56,7 @@ TEST_CASE("A mask below its cutoff is passed by closest and by shadow rays, abov
 }
 
 TEST_CASE("Blending stops a share of rays that is its alpha, by their keys: the same ones each time") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const auto rays = axis_rays(4096);
     const PackedScene packed = two_squares(shared::MATERIAL_ALPHA_BLEND, 0.3F, shared::FEATURE_ALPHA);
     const std::vector<TracedRay> traced = trace_rays(packed, rays);
@@ -71,7 +71,7 @@ TEST_CASE("Blending stops a share of rays that is its alpha, by their keys: the 
 }
 
 TEST_CASE("Without the feature there is no any-hit shader, and alpha is not looked at") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     CHECK(count_front(trace_rays(two_squares(shared::MATERIAL_ALPHA_MASK, 0.0F, 0), axis_rays(64))) == 64);
     check_no_validation_messages();
 }

@@ -60,14 +60,14 @@ TEST_CASE("A machine without a driver refuses to render") {
 }
 
 TEST_CASE("A device that no one has is refused, naming those that there are") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const std::string name = list_vulkan_devices().front().name;
     CHECK_THAT(refusal({.device = "imaginary"}), Catch::Contains("\"imaginary\"") && Catch::Contains(name));
     CHECK_THAT(refusal({.device = "99"}), Catch::Contains("\"99\""));
 }
 
 TEST_CASE("A device is chosen by index and by a part of its name, whatever the case") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const VulkanInstance opened = open_instance(false);
     const std::string name = list_vulkan_devices().front().name;
     std::string part = name.substr(1, 5);

@@ -14,43 +14,9 @@
 #include "upload.h"
 
 namespace diptych::tests {
-namespace {
-
-bool has_validation_layer() {
-    static const bool present = [] {
-        try {
-            open_instance(true);
-            return true;
-        } catch (const Error&) {
-            report_skipped("the Vulkan validation layer is not installed (package vulkan-validationlayers)");
-            return false;
-        }
-    }();
-    return present;
-}
-
-}  // namespace
-
-bool has_device() {
-    for (const VulkanDeviceInfo& info : list_vulkan_devices()) {
-        if (info.usable) {
-            return true;
-        }
-    }
-    return false;
-}
 
 VulkanOptions test_options() {
     return {.device = "", .validation = has_validation_layer()};
-}
-
-void check_no_validation_messages() {
-    for (const std::string& message : validation_messages()) {
-        INFO(message);
-        CHECK(false);
-    }
-    CHECK(validation_message_count() == 0);
-    clear_validation_messages();
 }
 
 std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays,

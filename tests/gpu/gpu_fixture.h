@@ -7,21 +7,15 @@
 
 #include "../../shaders/dispatch.h"
 #include "acceleration.h"
-#include "catch.h"
 #include "hit.h"
 #include "pack/packed_scene.h"
+#include "vulkan_device.h"
 #include "vulkan_renderer.h"
 
 namespace diptych::tests {
 
-/// Whether a usable Vulkan device exists.
-bool has_device();
-
 /// Validation where the layer is installed, so that every test of a device is one of validation too.
 VulkanOptions test_options();
-
-/// Fails on any validation message since the last call.
-void check_no_validation_messages();
 
 struct TracedRay {
     shared::Hit hit;
@@ -47,11 +41,3 @@ void add_geometry(PackedScene& packed, const std::vector<shared::vec3>& position
                   const std::vector<shared::uvec3>& triangles, std::uint32_t material);
 
 }  // namespace diptych::tests
-
-/// Leaves the test case where there is no device.
-#define NEED_DEVICE()                                                                                                  \
-    do {                                                                                                               \
-        if (!diptych::tests::has_device()) {                                                                           \
-            SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 has one");                          \
-        }                                                                                                              \
-    } while (false)

@@ -98,7 +98,7 @@ std::map<std::string, Offsets> cpp_offsets() {
           FIELD(RenderConstants, emissive_triangle_count), FIELD(RenderConstants, punctual_light_count)}},
         {"FilmPixel",
          {FIELD(FilmPixel, sum), FIELD(FilmPixel, compensation), FIELD(FilmPixel, samples), FIELD(FilmPixel, nonfinite),
-          FIELD(FilmPixel, rays)}},
+          FIELD(FilmPixel, rays), FIELD(FilmPixel, ray_wraps)}},
         {"FilmMoments", {FIELD(FilmMoments, first), FIELD(FilmMoments, sum_squares), FIELD(FilmMoments, compensation)}},
         {"FilmFirstHit", {FIELD(FilmFirstHit, albedo), FIELD(FilmFirstHit, normal), FIELD(FilmFirstHit, depth)}},
         {"Dispatch",

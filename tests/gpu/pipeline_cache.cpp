@@ -37,7 +37,7 @@ TEST_CASE("A pipeline cache file is read back whole, or not at all once it is da
 }
 
 TEST_CASE("A pipeline cache is saved and opened again, and a folder that cannot be written to is no error") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const std::filesystem::path path = scratch_file();
     const Gpu gpu = open_gpu("", test_options().validation);
     {

@@ -37,7 +37,7 @@ double pixel_mean(const shared::FilmPixel& pixel) {
 }  // namespace
 
 TEST_CASE("A render in many slices has the film of one in few, bit for bit") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const PackedScene packed = generated_scene("cornell", small_settings());
     const Film whole = render_film(packed, 4, 1U << 24U);
     REQUIRE(whole.pixels.size() == 45 * 31);
@@ -54,7 +54,7 @@ TEST_CASE("A render in many slices has the film of one in few, bit for bit") {
 }
 
 TEST_CASE("A specialised pipeline gives the image of the generic one") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const std::string name = GENERATE("cornell", "veach-mis", "normal-map");
     CAPTURE(name);
     RenderSettings settings = small_settings();
@@ -80,7 +80,7 @@ TEST_CASE("A specialised pipeline gives the image of the generic one") {
 }
 
 TEST_CASE("Layers that are not asked for are not there") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     RenderSettings settings = small_settings();
     settings.standard_error = false;
     settings.first_hit_layers = false;
@@ -91,7 +91,7 @@ TEST_CASE("Layers that are not asked for are not there") {
 }
 
 TEST_CASE("A render adds to what is there, and stops where it is told to") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const PackedScene packed = generated_scene("cornell", small_settings());
     PathRenderer renderer(packed, test_options());
     std::atomic<bool> cancel = false;
@@ -109,7 +109,7 @@ TEST_CASE("A render adds to what is there, and stops where it is told to") {
 }
 
 TEST_CASE("Compacted acceleration structures are no larger than built ones, and are counted") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const PathRenderer renderer(generated_scene("courtyard", small_settings()), test_options());
     CHECK(renderer.bottom_levels().bytes > 0);
     // A driver that wastes nothing at first has nothing to give back.
@@ -119,7 +119,7 @@ TEST_CASE("Compacted acceleration structures are no larger than built ones, and 
 }
 
 TEST_CASE("The traversal bench traces the integrator's rays, and leaves the film alone") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const PackedScene packed = generated_scene("cornell", small_settings());
     PathRenderer renderer(packed, test_options());
     const TraversalBench bench = renderer.bench_traversal(3);

@@ -88,7 +88,7 @@ std::vector<shared::RecordedRay> random_rays(std::uint32_t seed, int count) {
 }  // namespace
 
 TEST_CASE("Builds in many small batches give the same hits as in one") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const PackedScene packed = random_scene(3, 17, 40, 9);
     const std::vector<shared::RecordedRay> rays = random_rays(4, 2000);
     const std::vector<TracedRay> one = trace_rays(packed, rays);
@@ -105,7 +105,7 @@ TEST_CASE("Builds in many small batches give the same hits as in one") {
 }
 
 TEST_CASE("A scene without instances, and a mesh without triangles, are traced as nothing") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     PackedScene packed = random_scene(5, 1, 0, 2);
     const std::vector<shared::RecordedRay> rays = random_rays(6, 100);
     for (const TracedRay& ray : trace_rays(packed, rays)) {
@@ -123,7 +123,7 @@ TEST_CASE("A scene without instances, and a mesh without triangles, are traced a
 }
 
 TEST_CASE("Traced hits are those of a loop over all triangles") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     const PackedScene packed = random_scene(1, 5, 23, 12);
     const std::vector<shared::RecordedRay> rays = random_rays(2, 4000);
     const std::vector<TracedRay> traced = trace_rays(packed, rays);

@@ -8,7 +8,7 @@
 namespace diptych::tests {
 
 TEST_CASE("Validation reports a write that races with another, and counts it") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     if (!test_options().validation) {
         SKIP_TEST("no validation layer");
     }

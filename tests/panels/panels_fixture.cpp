@@ -2,27 +2,10 @@
 
 #include <cstdlib>
 
-#include "devices.h"
-#include "error.h"
-#include "gpu.h"
 #include "pack/features.h"
-#include "validation.h"
 
 namespace diptych::tests {
 namespace {
-
-bool has_validation_layer() {
-    static const bool present = [] {
-        try {
-            open_instance(true);
-            return true;
-        } catch (const Error&) {
-            report_skipped("the Vulkan validation layer is not installed (package vulkan-validationlayers)");
-            return false;
-        }
-    }();
-    return present;
-}
 
 bool brings_light(const Scene& scene) {
     bool emissive = false;
@@ -34,31 +17,20 @@ bool brings_light(const Scene& scene) {
 
 }  // namespace
 
-bool has_vulkan() {
-    for (const VulkanDeviceInfo& info : list_vulkan_devices()) {
-        if (info.usable) {
-            return true;
-        }
-    }
-    return false;
-}
-
-Film render_vulkan(const Scene& scene, const RenderSettings& settings, std::uint32_t spp) {
+Film render_vulkan(const PackedScene& packed, std::uint32_t spp) {
     Film film;
     {
-        const PackedScene packed = pack_scene(scene, settings);
         const auto renderer = make_vulkan_renderer(packed, {.device = "", .validation = has_validation_layer()});
         const std::atomic<bool> cancel{false};
         renderer->render(0, spp, cancel);
         film = renderer->film();
     }
-    for (const std::string& message : validation_messages()) {
-        INFO(message);
-        CHECK(false);
-    }
-    CHECK(validation_message_count() == 0);
-    clear_validation_messages();
+    check_no_validation_messages();
     return film;
+}
+
+Film render_vulkan(const Scene& scene, const RenderSettings& settings, std::uint32_t spp) {
+    return render_vulkan(pack_scene(scene, settings), spp);
 }
 
 void complete_scene(Scene& scene) {

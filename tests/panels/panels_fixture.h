@@ -7,14 +7,13 @@
 #include "image/metrics.h"
 #include "scene/default_camera.h"
 #include "scene/environment_load.h"
+#include "vulkan_device.h"
 #include "vulkan_renderer.h"
 
 namespace diptych::tests {
 
-/// Whether a usable Vulkan device exists.
-bool has_vulkan();
-
 /// Renders on the device, under validation where its layer is installed, and fails on any message of it.
+Film render_vulkan(const PackedScene& packed, std::uint32_t spp);
 Film render_vulkan(const Scene& scene, const RenderSettings& settings, std::uint32_t spp);
 
 /// Lights and cameras for a file that brings none, as the program does.
@@ -30,11 +29,3 @@ RenderSettings paired_settings(int width, int height, Integrator integrator, Brd
 double fraction_equal(const Film& a, const Film& b);
 
 }  // namespace diptych::tests
-
-/// Leaves the test case where there is no device.
-#define NEED_VULKAN()                                                                                                  \
-    do {                                                                                                               \
-        if (!diptych::tests::has_vulkan()) {                                                                           \
-            SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 or later brings one");              \
-        }                                                                                                              \
-    } while (false)

@@ -1,17 +1,20 @@
 #!/usr/bin/env bash
-# Tries the project on a Debian with nothing installed: a debootstrap chroot that gets a copy of the working tree
+# Tries the project on a Debian or Ubuntu with nothing installed: a debootstrap chroot that gets a copy of the working tree
 # (tracked and untracked files, no build output) and runs a command in it. Needs root, debootstrap and a network.
-#   tests/scripts/fresh-debian.sh [--suite bookworm] [--keep FOLDER] [COMMAND...]      default command: ./test
-# --keep makes or reuses FOLDER as the chroot and leaves it there. Mirror, certificate authorities and apt's settings (proxy,
-# checks) are the machine's own. Files the command writes under out/ in the copy lie in FOLDER/root/diptych/out.
+#   tests/scripts/fresh-debian.sh [--suite bookworm] [--mirror URI] [--keep FOLDER] [COMMAND...]     default command: ./test
+# Suites: bookworm, trixie; noble, which needs an Ubuntu mirror and the package ubuntu-keyring. --keep makes or reuses FOLDER as
+# the chroot and leaves it there. Certificate authorities, apt's settings (proxy, checks) and, without --mirror, the mirror are
+# the machine's own. Files the command writes under out/ in the copy lie in FOLDER/root/diptych/out.
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
 suite=bookworm
+mirror=
 keep=
 while [ "$#" -gt 0 ]; do
     case "$1" in
         --suite) suite="$2"; shift 2 ;;
+        --mirror) mirror="$2"; shift 2 ;;
         --keep) keep="$2"; shift 2 ;;
         *) break ;;
     esac
@@ -30,10 +33,23 @@ unmount() {
 }
 trap unmount EXIT
 
+origin=Debian
+components=main
+script=()
+case "$suite" in noble | plucky | questing)
+    origin=Ubuntu
+    components=main,universe
+    script=(gutsy)  # all of Ubuntu's suites share it, and an older debootstrap lacks the newer names
+    ;;
+esac
 if [ ! -e "$chroot_dir/etc/debian_version" ]; then
-    mirror="$(apt-get indextargets 'Created-By: Packages' 'Origin: Debian' 'Component: main' --format '$(REPO_URI)' |
-        grep -v security | head -n 1)"
-    debootstrap --variant=minbase "$suite" "$chroot_dir" "${mirror:?no Debian mirror among the apt sources}"
+    : "${mirror:=$(apt-get indextargets 'Created-By: Packages' "Origin: $origin" 'Component: main' --format '$(REPO_URI)' |
+        grep -v security | head -n 1)}"
+    [ -n "$mirror" ] || { echo "fresh-debian: no mirror of $origin among the apt sources: give --mirror URI" >&2; exit 2; }
+    debootstrap --variant=minbase --components="$components" "$suite" "$chroot_dir" "$mirror" "${script[@]}"
+    if [ "$origin" = Ubuntu ]; then  # as every installed Ubuntu has it, and where its newer Mesa is
+        echo "deb $mirror $suite-updates ${components//,/ }" >>"$chroot_dir/etc/apt/sources.list"
+    fi
 fi
 cp -L /etc/resolv.conf /etc/hosts "$chroot_dir/etc/"
 grep -lsE '^ *Acquire::' /etc/apt/apt.conf.d/* /etc/apt/apt.conf 2>/dev/null |

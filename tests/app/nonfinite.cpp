@@ -1,0 +1,35 @@
+#include "catch.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "image/layered_image.h"
+#include "process.h"
+
+using namespace diptych;
+using namespace diptych::tests;
+
+TEST_CASE("render warns of samples that it dropped, counts them, and writes what is left", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = write_bare_triangle(folder);
+    const std::string backend = GENERATE("cpu", "vulkan");
+    // A sky near the largest float: the triangle's light samples overflow, and so would sums of the sky itself.
+    const ProcessResult result =
+        run_diptych(folder, {"render", scene, "-o", folder.file("out.exr"), "--backend", backend, "--env", "3e38,3e38,3e38",
+                             "--integrator", "direct", "--spp", "4", "--size", "16", "--json"});
+    INFO(backend << "\n" << result.err);
+    if (result.exit_code == 3) {
+        SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 or later brings one");
+    }
+    REQUIRE(result.exit_code == 0);
+    const auto count = nlohmann::json::parse(result.out).at("nonfinite").get<int>();
+    CHECK(count > 0);
+    CHECK(count < 16 * 16 * 4);
+    CHECK(result.err.find("warning: " + folder.file("out.exr") + ": " + std::to_string(count) + " of 1024 samples") !=
+          std::string::npos);
+    const LayeredImage image = read_image(folder.file("out.exr"));
+    CHECK(image.metadata.at("nonfinite") == std::to_string(count));
+    for (const float value : image.color.data) {
+        REQUIRE(std::isfinite(value));
+    }
+}

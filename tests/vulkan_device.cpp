@@ -1,0 +1,41 @@
+#include "vulkan_device.h"
+
+#include "devices.h"
+#include "error.h"
+#include "gpu.h"
+#include "validation.h"
+
+namespace diptych::tests {
+
+bool has_vulkan() {
+    for (const VulkanDeviceInfo& info : list_vulkan_devices()) {
+        if (info.usable) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool has_validation_layer() {
+    static const bool present = [] {
+        try {
+            open_instance(true);
+            return true;
+        } catch (const Error&) {
+            report_skipped("the Vulkan validation layer is not installed (package vulkan-validationlayers)");
+            return false;
+        }
+    }();
+    return present;
+}
+
+void check_no_validation_messages() {
+    for (const std::string& message : validation_messages()) {
+        INFO(message);
+        CHECK(false);
+    }
+    CHECK(validation_message_count() == 0);
+    clear_validation_messages();
+}
+
+}  // namespace diptych::tests

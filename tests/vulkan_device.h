@@ -1,0 +1,25 @@
+// The Vulkan device that tests run on, under validation where its layer is installed.
+#pragma once
+
+#include "catch.h"
+
+namespace diptych::tests {
+
+/// Whether a usable Vulkan device exists.
+bool has_vulkan();
+
+/// Whether the validation layer is installed; says SKIPPED once where it is not. Every test of a device is one of validation too.
+bool has_validation_layer();
+
+/// Fails on any validation message since the last call.
+void check_no_validation_messages();
+
+}  // namespace diptych::tests
+
+/// Leaves the test case where there is no device.
+#define NEED_VULKAN()                                                                                                  \
+    do {                                                                                                               \
+        if (!diptych::tests::has_vulkan()) {                                                                           \
+            SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 or later brings one");              \
+        }                                                                                                              \
+    } while (false)
