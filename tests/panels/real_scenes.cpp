@@ -34,7 +34,7 @@ TEST_CASE("Both panels paint every real scene alike, from one seed and from two"
         const std::string name = std::filesystem::relative(file, asset_folder()).string();
         Scene scene;
         try {
-            scene = load_gltf(file);
+            scene = load_gltf(file, {{"AMD_split_roughnessMetallic"}});  // Sponza requires it, and uses it nowhere
         } catch (const Error& error) {
             std::printf("| %s | refused: %s |\n", name.c_str(), error.what());
             continue;
