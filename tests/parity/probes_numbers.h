@@ -1,0 +1,191 @@
+// Probes of integers, random numbers, elementary functions and sums.
+#ifndef PROBES_NUMBERS_H
+#define PROBES_NUMBERS_H
+
+#include "probe.h"
+
+SHARED_BEGIN
+
+FN void probe_words(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    put_bits4(o, pcg4d(p.words));
+    put_bits(o, hash_word(p.words.x));
+    put_bits(o, hash_combine(p.words.x, p.words.y));
+    put_bits(o, floatBitsToUint(unit_float(p.words.z)));
+    put_bits(o, multiply_high(p.words.x, p.words.y));
+    put_bits(o, alias_column(p.words.z, p.set.y));
+    AliasEntry entry;
+    entry.probability = p.u.x;
+    entry.alias = p.words.w;
+    put_bits(o, alias_pick(entry, p.set.x, p.words.x));
+    entry.probability = p.number;
+    put_bits(o, alias_pick(entry, p.set.x, p.words.y));
+}
+
+FN Sampler probe_sampler_of(IN(ProbeInput) p) {
+    return make_sampler(uvec2(p.words.x & 0xffffu, p.words.x >> 16), p.set.x, p.words.y, p.words.z % 3u, p.set.y);
+}
+
+FN uint probe_dimension(IN(ProbeInput) p) {
+    return 2u * (p.words.w % 60u);
+}
+
+FN void probe_sampler_parts(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    Sampler s = probe_sampler_of(p);
+    uint dimension = probe_dimension(p);
+    put_bits2(o, s.key);
+    put_bits(o, s.reversed_index);
+    put_bits2(o, independent_bits_2d(s, dimension));
+    uvec3 words = dimension_words(s, dimension);
+    put_bits(o, words.x);
+    put_bits(o, words.y);
+    put_bits(o, words.z);
+    put_bits(o, stratum_center_bits(p.set.x, p.set.y));
+    put_bits(o, permute_index(p.set.x, p.set.y, p.words.z));
+    put_bits2(o, hammersley_bits_2d(s, dimension & 2u));
+    put_bits(o, owen_scramble_reversed(p.words.x, p.words.y));
+    put_bits(o, sobol_second_reversed(p.words.x));
+    put_bits2(o, sobol_bits_2d(s, dimension));
+}
+
+FN void probe_sampler(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    Sampler s = probe_sampler_of(p);
+    uint dimension = probe_dimension(p);
+    put_bits2(o, sample_bits_2d(s, dimension));
+    FourPairs pairs = sample_bits_four_pairs(s, dimension);
+    put_bits4(o, pairs.first);
+    put_bits4(o, pairs.second);
+    vec2 u = sample_2d(s, dimension);
+    put_bits(o, floatBitsToUint(u.x));
+    put_bits(o, floatBitsToUint(u.y));
+    put_bits(o, floatBitsToUint(sample_1d(s, dimension)));
+}
+
+FN void probe_bit_tests(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    float a = uintBitsToFloat(p.words.x);
+    put_bits(o, is_nan(a) ? 1u : 0u);
+    put_bits(o, is_bad_component(a) ? 1u : 0u);
+    put_bits(o, is_bad_sample(p.radiance) ? 1u : 0u);
+    put_bits(o, floatBitsToUint(positive_infinity()));
+}
+
+FN void probe_small_helpers(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    put_relative(o, safe_sqrt(p.number));
+    put_relative(o, luminance(p.color));
+    put_bits(o, floatBitsToUint(max_component(p.edge_1)));
+    put_bits(o, floatBitsToUint(largest_magnitude(p.edge_1)));
+    put_same3(o, xyz(vec4(p.axis.x, p.axis.y, p.axis.z, 1.0f)));
+}
+
+FN void probe_sin_cos(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    float s;
+    float c;
+    sin_cos(p.angle, s, c);
+    put_relative(o, s);
+    put_relative(o, c);
+    sin_cos(p.special, s, c);
+    put_relative(o, s);
+    put_relative(o, c);
+}
+
+FN void probe_arctan2(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    put_relative(o, arctan2(p.number, p.other));
+    put_relative(o, arctan2(p.edge_1.x, p.edge_1.y));
+    put_relative(o, arctan2(p.axis.x, p.axis.y));
+}
+
+FN void probe_arccos(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    put_relative(o, arccos(p.axis.x));
+    put_relative(o, arccos(p.number));
+}
+
+FN void probe_exp2(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    put_relative(o, exp2_poly(uintBitsToFloat(p.words.x)));
+    put_relative(o, exp2_poly(256.0f * p.u.x - 127.0f));
+    put_relative(o, exp2_poly(p.special));
+}
+
+FN void probe_logarithms(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    put_relative(o, log2_poly(uintBitsToFloat(p.words.x)));
+    put_relative(o, log2_poly(p.special));
+    put_relative(o, log2_poly(0.5f + 1.5f * p.u.x));
+    put_relative(o, log1p_poly(p.special));
+    put_relative(o, log1p_poly(p.angle));
+    put_relative(o, log1p_poly(-p.u.y));
+    put_relative(o, log1p_reduced(0.7f * p.u.z - 0.29f));
+    float f;
+    put_relative(o, split_exponent(abs(p.number), f));
+    put_relative(o, f);
+}
+
+FN void probe_power(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    put_relative(o, pow_poly(abs(p.number), 4.0f * p.u.x - 2.0f));
+    put_relative(o, pow_poly(p.u.y, 40.0f * p.u.z));
+}
+
+FN void probe_film_sums(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    FilmPixel pixel;
+    pixel.sum = p.vertex;
+    pixel.compensation = p.vertex * 2.9802322387695312e-8f;
+    pixel.samples = p.set.x;
+    pixel.nonfinite = p.words.y;
+    pixel.rays = p.words.x;
+    bool kept = film_add(pixel, p.radiance, 7u);
+    put_bits(o, kept ? 1u : 0u);
+    put_bits(o, pixel.samples);
+    put_bits(o, pixel.nonfinite);
+    put_bits(o, pixel.rays);
+    put_same3(o, pixel.sum);
+    put_same3(o, pixel.compensation);
+    vec3 sum = p.edge_1;
+    vec3 rest = vec3(0.0f, 0.0f, 0.0f);
+    compensated_add(sum, rest, p.edge_2);
+    put_same3(o, sum);
+    put_same3(o, rest);
+}
+
+FN void probe_film_moments(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    FilmMoments moments;
+    moments.first = p.color;
+    moments.sum_squares = abs(p.vertex);
+    moments.compensation = vec3(0.0f, 0.0f, 0.0f);
+    film_add_moments(moments, p.color_2, p.set.x);
+    put_same3(o, moments.first);
+    put_same3(o, moments.sum_squares);
+    put_same3(o, moments.compensation);
+}
+
+FN void probe_film_first_hit(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    FilmFirstHit film;
+    film.albedo = p.color;
+    film.normal = p.axis;
+    film.depth = p.u.x;
+    FirstHit hit;
+    hit.albedo = p.color_2;
+    hit.normal = p.axis_2;
+    hit.depth = p.u.y;
+    film_add_first_hit(film, hit, p.set.y);
+    put3(o, film.albedo, 1.0f);
+    put3(o, film.normal, 1.0f);
+    put(o, film.depth, 1.0f);
+}
+
+SHARED_END
+
+// See probe_list.h.
+#define NUMBER_PROBES(X)                                                                                               \
+    X(words, 0, 0, "integers")                                                                                         \
+    X(sampler_parts, 0, 0, "integers")                                                                                 \
+    X(sampler, 0, 0, "integers; a 24-bit integer times 2^-24 is exact")                                                \
+    X(bit_tests, 0, 0, "by the bits")                                                                                  \
+    X(small_helpers, 6, 0, "sqrt")                                                                                     \
+    X(sin_cos, 4, 0, "precise; the quadrant's product may be fused, and at a tie both are within 1.6")                 \
+    X(arctan2, 8, 0, "one division; then precise")                                                                     \
+    X(arccos, 16, 0, "sqrt, then a division")                                                                          \
+    X(exp2, 1, 0, "precise")                                                                                           \
+    X(logarithms, 1, 0, "precise")                                                                                     \
+    X(power, 1, 0, "precise log2 and exp2 about one product")                                                          \
+    X(film_sums, 0, 0, "precise: a compensated sum that rounds otherwise is none")                                     \
+    X(film_moments, 0, 0, "precise sums of one product")                                                               \
+    X(film_first_hit, 4, 0, "one division")
+
+#endif
