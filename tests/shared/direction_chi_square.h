@@ -133,9 +133,9 @@ struct ChiSquareResult {
 /// own.
 template <class Draw, class Pdf>
 ChiSquareResult chi_square(const Chart& chart, int64_t draws, const Draw& draw, const Pdf& pdf) {
-    constexpr int columns = 24;
-    constexpr int rows = 48;
-    constexpr int fine = 16;
+    constexpr int columns = 65;
+    constexpr int rows = 130;
+    constexpr int fine = 8;
     std::vector<double> expected(columns * rows + 1, 0.0);
     std::vector<double> observed(columns * rows + 1, 0.0);
     ChiSquareResult result;
