@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "error.h"
+#include "oracle_renderer/oracle_renderer.h"
 #include "render/settings_names.h"
 
 namespace diptych::app {
@@ -55,14 +56,18 @@ CLI::Validator non_negative_number() {
 }
 
 void add_integrator_option(CLI::App& command, RenderArguments& arguments) {
-    command.add_option("--integrator", arguments.integrator, "brdf, direct or path")->capture_default_str();
+    arguments.panel_options.push_back(
+        command.add_option("--integrator", arguments.integrator, "brdf, direct or path; not for the oracle")
+            ->capture_default_str());
 }
 
 void add_scene_options(CLI::App& command, RenderArguments& arguments) {
     RenderRequest& request = arguments.request;
     command.add_option("--brdf", arguments.brdf, "Microfacet model: ggx or blinn-phong")->capture_default_str();
-    command.add_option("--sampler", arguments.sampler, "independent, hammersley or sobol")->capture_default_str();
-    command.add_option("--mis", arguments.mis, "Weights of path: power or balance")->capture_default_str();
+    arguments.panel_options.push_back(
+        command.add_option("--sampler", arguments.sampler, "independent, hammersley or sobol")->capture_default_str());
+    arguments.panel_options.push_back(
+        command.add_option("--mis", arguments.mis, "Weights of path: power or balance")->capture_default_str());
     command.add_option("--max-depth", request.settings.max_depth, "Scattering events; 1 is emission and direct light")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
@@ -80,16 +85,40 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
                     "Load the file without this glTF extension, though it requires it; may be repeated")
         ->type_name("NAME")
         ->allow_extra_args(false);
-    command.add_flag("--generic", request.settings.generic,
-                     "Leave nothing out that the scene does not need; same image");
+    arguments.panel_options.push_back(command.add_flag(
+        "--generic", request.settings.generic, "Leave nothing out that the scene does not need; same image"));
 }
 
 void add_backend_options(CLI::App& command, RenderArguments& arguments) {
     RenderRequest& request = arguments.request;
-    command.add_option("--backend", request.backend, "cpu or vulkan")->capture_default_str();
+    command.add_option("--backend", request.backend, "cpu, vulkan or oracle")->capture_default_str();
     command.add_option("--device", request.device, "Vulkan device by index or name; the best by default");
-    command.add_option("--threads", request.threads, "CPU threads; one a core by default")->check(CLI::Range(1, 4096));
+    command.add_option("--threads", request.threads, "Threads of cpu or oracle; one a core by default")->check(CLI::Range(1, 4096));
     command.add_flag("--validation", request.validation, "Run Vulkan's validation layers; exit 1 if they have anything to say");
+}
+
+void add_oracle_option(CLI::App& command, RenderArguments& arguments) {
+    arguments.oracle_option =
+        command
+            .add_option("--oracle-mode", arguments.request.oracle_mode,
+                        "How the oracle, which has no --integrator, finds light: bsdf, hemisphere or area")
+            ->capture_default_str();
+}
+
+void resolve_oracle_mode(const RenderArguments& arguments) {
+    oracle_mode_from_name(arguments.request.oracle_mode);
+    if (arguments.request.backend != "oracle") {
+        if (arguments.oracle_option->count() > 0) {
+            throw Error("--oracle-mode: goes with --backend oracle");
+        }
+        return;
+    }
+    for (const CLI::Option* option : arguments.panel_options) {
+        if (option->count() > 0) {
+            throw Error(fmt::format("{}: means nothing to --backend oracle, whose one choice is --oracle-mode",
+                                    option->get_name()));
+        }
+    }
 }
 
 void resolve_names(RenderArguments& arguments) {
@@ -99,10 +128,10 @@ void resolve_names(RenderArguments& arguments) {
     settings.brdf = brdf_from_name(arguments.brdf);
     settings.sampler = sampler_from_name(arguments.sampler);
     settings.mis = mis_from_name(arguments.mis);
-    if (request.backend != "cpu" && request.backend != "vulkan") {
-        throw Error(fmt::format("--backend {}: there are only cpu, vulkan", request.backend));
+    if (request.backend != "cpu" && request.backend != "vulkan" && request.backend != "oracle") {
+        throw Error(fmt::format("--backend {}: there are only cpu, vulkan, oracle", request.backend));
     }
-    const bool cpu = request.backend == "cpu";
+    const bool cpu = request.backend != "vulkan";
     if (cpu && !request.device.empty()) {
         throw Error("--device: goes with --backend vulkan");
     }
@@ -110,7 +139,7 @@ void resolve_names(RenderArguments& arguments) {
         throw Error("--validation: goes with --backend vulkan");
     }
     if (!cpu && request.threads != 0) {
-        throw Error("--threads: goes with --backend cpu");
+        throw Error("--threads: goes with --backend cpu or oracle");
     }
     if (!arguments.size.empty()) {
         resolve_size(arguments, Camera{});

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "render/render_request.h"
 #include "scene/scene.h"
@@ -17,6 +18,8 @@ struct RenderArguments {
     std::string sampler = "sobol";
     std::string mis = "power";
     std::string size;
+    std::vector<CLI::Option*> panel_options;  // those that mean nothing to the oracle
+    CLI::Option* oracle_option = nullptr;     // --oracle-mode
 };
 
 /// Checks of numeric options. CLI11's own ranges let NaN through, and print 309 digits where they have no upper end.
@@ -31,6 +34,12 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments);
 
 /// Which backend, and how it is to work.
 void add_backend_options(CLI::App& command, RenderArguments& arguments);
+
+/// How the oracle is to find light.
+void add_oracle_option(CLI::App& command, RenderArguments& arguments);
+
+/// Throws Error where the mode is unknown, stands without the oracle, or an option stands with it that means nothing to it.
+void resolve_oracle_mode(const RenderArguments& arguments);
 
 /// Names to values, and options that contradict the backend refused. Throws Error naming the option.
 void resolve_names(RenderArguments& arguments);

@@ -5,6 +5,7 @@
 #include "backend/cpu_renderer.h"
 #include "command.h"
 #include "error.h"
+#include "oracle_renderer/oracle_renderer.h"
 #include "report.h"
 #if DIPTYCH_VULKAN
 #include "vulkan_renderer.h"
@@ -12,7 +13,11 @@
 
 namespace diptych::app {
 
-std::unique_ptr<Renderer> make_renderer(const PackedScene& packed, const RenderRequest& request) {
+std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request) {
+    if (request.backend == "oracle") {
+        return make_oracle_renderer(scene, request.settings, oracle_mode_from_name(request.oracle_mode),
+                                    request.threads);
+    }
     if (request.backend == "cpu") {
         return make_cpu_renderer(packed, request.threads);
     }

@@ -6,11 +6,13 @@
 #include "pack/packed_scene.h"
 #include "render/render_request.h"
 #include "render/renderer.h"
+#include "scene/scene.h"
 
 namespace diptych::app {
 
-/// Throws NoDevice where there is no suitable one, Error where the program was built without that backend.
-std::unique_ptr<Renderer> make_renderer(const PackedScene& packed, const RenderRequest& request);
+/// The panels read the packed scene, the oracle the logical one it was made of; both must outlive the renderer. Throws NoDevice
+/// where there is no suitable one, Error where the program was built without that backend.
+std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request);
 
 /// What the validation layer had to say during the run, as a line on stderr where that is anything. Returns `exit_code`, or
 /// exit_check_failed where it was exit_done and there were messages. Call it when all renderers are gone.

@@ -64,7 +64,7 @@ std::vector<Entry> make_entries(Options& options, const Scene& scene, StepLine& 
         Entry entry;
         entry.integrator = request.settings.integrator;
         entry.packed = std::make_unique<PackedScene>(pack_scene(scene, request.settings));
-        entry.renderer = make_renderer(*entry.packed, request);
+        entry.renderer = make_renderer(scene, *entry.packed, request);
         entries.push_back(std::move(entry));
     }
     return entries;
@@ -171,6 +171,9 @@ nlohmann::ordered_json to_json(const std::vector<Entry>& entries, const std::vec
 
 int run_bench(Options options) {
     resolve_names(options.arguments);
+    if (options.arguments.request.backend == "oracle") {
+        throw Error("--backend oracle: bench measures the panels, cpu and vulkan");
+    }
     for (const std::string& name : options.integrators) {
         integrator_from_name(name);
     }

@@ -26,6 +26,7 @@ namespace {
 constexpr const char* examples = R"(Examples:
   diptych render scene.gltf -o picture.exr
   diptych render scene.glb -o picture.png --backend vulkan --time 10 --size 1920x1080 --tonemap aces
+  diptych render scene.gltf -o truth.exr --backend oracle --oracle-mode area --spp 4096
   diptych render scene.gltf -o picture.exr --env studio.hdr --env-rotate 90 --camera Front --spp 1024
 EXR holds linear colour, standard error, albedo, normal and depth, with metadata that repeats the render: the command is
 in the attribute diptych:command. PNG is tone mapped; HDR is linear. Ctrl-C saves the work so far and exits with 130.)";
@@ -42,6 +43,7 @@ void check_options(Options& options) {
     RenderRequest& request = options.arguments.request;
     RenderSettings& settings = request.settings;
     resolve_names(options.arguments);
+    resolve_oracle_mode(options.arguments);
     tonemap_from_name(request.tonemap);
     if (request.seconds > 0) {
         request.spp = 0;
@@ -89,7 +91,11 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
     nlohmann::ordered_json json;
     json["backend"] = renderer.backend();
     json["device"] = outcome.device;
-    json["integrator"] = name_of(request.settings.integrator);
+    if (request.backend == "oracle") {
+        json["oracle_mode"] = request.oracle_mode;
+    } else {
+        json["integrator"] = name_of(request.settings.integrator);
+    }
     json["width"] = request.settings.width;
     json["height"] = request.settings.height;
     json["spp"] = outcome.spp;
@@ -113,9 +119,10 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
 int run_render(Options options) {
     check_options(options);
     RenderRequest& request = options.arguments.request;
-    PackedScene packed = pack_scene(prepare_scene(options.arguments), request.settings);
+    const Scene scene = prepare_scene(options.arguments);
+    PackedScene packed = pack_scene(scene, request.settings);
     const std::uint32_t features = packed.features;
-    const std::unique_ptr<Renderer> renderer = make_renderer(packed, request);
+    const std::unique_ptr<Renderer> renderer = make_renderer(scene, packed, request);
 
     ProgressiveResult result;
     {
@@ -172,14 +179,16 @@ void add_render(CLI::App& app, Run& run) {
         ->check(CLI::Range(0.001, 1e9))
         ->check(finite_number())
         ->excludes(spp);
-    command
-        ->add_option("--sample-count", options->sample_count,
-                     "Samples that hammersley is laid out for; --spp by default")
-        ->check(CLI::Range(1U, 4294967295U));
+    options->arguments.panel_options.push_back(
+        command
+            ->add_option("--sample-count", options->sample_count,
+                         "Samples that hammersley is laid out for; --spp by default")
+            ->check(CLI::Range(1U, 4294967295U)));
     command->add_option("--seed", request.settings.seed, "Another seed, other noise")->capture_default_str();
     add_integrator_option(*command, options->arguments);
     add_scene_options(*command, options->arguments);
     add_backend_options(*command, options->arguments);
+    add_oracle_option(*command, options->arguments);
     command->add_option("--exposure", request.exposure, "EV, powers of two; for .png")
         ->check(CLI::Range(-100.0, 100.0))
         ->check(finite_number());

@@ -46,17 +46,24 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
     if (!request.device.empty()) {
         add("--device", request.device);
     }
-    add("--integrator", name_of(settings.integrator));
+    const bool oracle = request.backend == "oracle";  // which is told by mode, and has no sampler or weights
+    if (oracle) {
+        add("--oracle-mode", request.oracle_mode);
+    } else {
+        add("--integrator", name_of(settings.integrator));
+    }
     add("--spp", spp);
     add("--size", fmt::format("{}x{}", settings.width, settings.height));
     add("--max-depth", settings.max_depth);
     add("--seed", settings.seed);
     add("--brdf", name_of(settings.brdf));
-    add("--sampler", name_of(settings.sampler));
-    if (settings.sampler == SamplerKind::hammersley) {
+    if (!oracle) {
+        add("--sampler", name_of(settings.sampler));
+        add("--mis", name_of(settings.mis));
+    }
+    if (!oracle && settings.sampler == SamplerKind::hammersley) {
         add("--sample-count", settings.sample_count);
     }
-    add("--mis", name_of(settings.mis));
     if (!request.camera.empty()) {
         add("--camera", request.camera);
     }
@@ -92,16 +99,21 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("ignored_extensions", fmt::format("{}", fmt::join(request.ignored_extensions, ",")));
     add("backend", request.backend);
     add("device", outcome.device);
-    add("integrator", name_of(settings.integrator));
+    if (request.backend == "oracle") {
+        add("oracle_mode", request.oracle_mode);
+    } else {
+        add("integrator", name_of(settings.integrator));
+        add("sampler", name_of(settings.sampler));
+        add("sample_count", settings.sample_count);
+        add("mis", name_of(settings.mis));
+        add("generic", yes_or_no(settings.generic));
+    }
     add("spp", outcome.spp);
     add("width", settings.width);
     add("height", settings.height);
     add("max_depth", settings.max_depth);
     add("seed", settings.seed);
     add("brdf", name_of(settings.brdf));
-    add("sampler", name_of(settings.sampler));
-    add("sample_count", settings.sample_count);
-    add("mis", name_of(settings.mis));
     add("camera", request.camera);
     add("camera_index", settings.camera);
     add("environment", request.environment);
@@ -111,7 +123,6 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("focus_distance", request.focus_distance ? fmt::format("{}", *request.focus_distance) : "");
     add("exposure", request.exposure);
     add("tonemap", request.tonemap);
-    add("generic", yes_or_no(settings.generic));
     add("interrupted", yes_or_no(outcome.interrupted));
     add("uneven", yes_or_no(outcome.uneven));
     add("seconds", outcome.seconds);

@@ -14,7 +14,8 @@ struct RenderRequest {
     std::string scene;   // file
     std::vector<std::string> ignored_extensions;  // required by the file, lacking here, and done without
     std::string output;  // file
-    std::string backend = "cpu";
+    std::string backend = "cpu";       // cpu, vulkan or oracle
+    std::string oracle_mode = "bsdf";  // oracle: bsdf, hemisphere or area
     std::string device;       // vulkan: index or name; empty is the best
     std::string camera;       // name or index; empty is the first
     std::string environment;  // "R,G,B" or a file; empty is the scene's own
@@ -24,7 +25,7 @@ struct RenderRequest {
     std::optional<double> focus_distance;  // metres
     double exposure = 0;                   // EV, for output that is tone mapped
     std::string tonemap = "none";
-    int threads = 0;  // cpu; 0 is one a core
+    int threads = 0;  // cpu, oracle; 0 is one a core
     bool validation = false;
     std::uint32_t spp = 64;  // 0 where `seconds` is the limit
     double seconds = 0;

@@ -31,7 +31,7 @@ public:
     Renderer& operator=(const Renderer&) = delete;
     virtual ~Renderer() = default;
 
-    /// "cpu" or "vulkan".
+    /// "cpu", "vulkan" or "oracle".
     virtual std::string backend() const = 0;
     /// The device's own name.
     virtual std::string device() const = 0;

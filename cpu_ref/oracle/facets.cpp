@@ -1,0 +1,121 @@
+#include "oracle/facets.h"
+
+#include <cmath>
+
+namespace diptych::oracle {
+
+namespace {
+
+constexpr double least_view_cosine = 1e-3;
+constexpr double least_facet_cosine = 0.01;
+constexpr double least_light_cosine = 1e-7;
+
+double above(double x) {
+    return glm::max(x, 0.0);
+}
+
+/// The unit vector of the plane of n and `axis` whose cosine to `axis` is c, on n's side.
+dvec3 with_cosine(const dvec3& n, const dvec3& axis, double c) {
+    const dvec3 across = n - dot(n, axis) * axis;
+    const double size = length(across);
+    return size > 0 ? c * axis + std::sqrt(1 - c * c) / size * across : axis;
+}
+
+dvec3 bend(const dvec3& n, const dvec3& geometric, const dvec3& o) {
+    if (dot(o, n) >= least_view_cosine) {
+        return n;
+    }
+    const dvec3 bent = with_cosine(n, o, least_view_cosine);
+    return dot(bent, geometric) > 0 ? bent : geometric;
+}
+
+/// The least rotation that takes `from` to `to`, applied to v (Rodrigues' formula).
+dvec3 turn(const dvec3& v, const dvec3& from, const dvec3& to) {
+    const dvec3 axis = cross(from, to);
+    const double c = dot(from, to);
+    return 1 + c > 0 ? v * c + cross(axis, v) + axis * (dot(axis, v) / (1 + c)) : v;
+}
+
+double visible_share(const Facets& f, const dvec3& w) {
+    const double p = above(dot(w, f.p));
+    return p > 0 ? p / (p + above(dot(w, f.t)) * f.sine) : 0;
+}
+
+double masking(const Facets& f, const dvec3& w) {
+    const double projected = above(dot(w, f.p)) + above(dot(w, f.t)) * f.sine;
+    return projected > 0 ? glm::min(1.0, above(dot(w, f.g)) * f.cosine / projected) : 0;
+}
+
+bool leaves(const Facets& f, const dvec3& i) {
+    return dot(i, f.geometric) > 0 && (f.is_flat() || dot(i, f.g) > least_light_cosine);
+}
+
+Scattered draw(const Facets& f, const Bsdf& bsdf, const dvec3& o, bool only_mirror, Random& random) {
+    return only_mirror ? sample_mirror(bsdf, f.p, o) : sample(bsdf, f.p, o, random);
+}
+
+}  // namespace
+
+Facets make_facets(const dvec3& geometric, const dvec3& n, const dvec3& mapped, const dvec3& o) {
+    Facets f;
+    f.geometric = geometric;
+    f.g = bend(n, geometric, o);
+    f.p = f.g;
+    if (mapped == n) {
+        return f;
+    }
+    f.p = turn(mapped, n, f.g);
+    if (dot(f.p, f.g) < least_facet_cosine) {
+        f.p = with_cosine(f.p, f.g, least_facet_cosine);
+    }
+    const dvec3 across = f.p - dot(f.p, f.g) * f.g;
+    f.sine = length(across);
+    f.cosine = dot(f.p, f.g);
+    if (f.sine < 1e-9) {
+        f.p = f.g;
+        f.sine = 0;
+        f.cosine = 1;
+        return f;
+    }
+    f.t = -across / f.sine;
+    return f;
+}
+
+dvec3 evaluate(const Facets& f, const Bsdf& bsdf, const dvec3& o, const dvec3& i) {
+    if (!leaves(f, i)) {
+        return dvec3(0);
+    }
+    if (f.is_flat()) {
+        return evaluate(bsdf, f.g, o, i);
+    }
+    const double share = visible_share(f, o);
+    const double g1 = masking(f, i);
+    dvec3 value = share * evaluate(bsdf, f.p, o, i) * g1;
+    if (dot(i, f.t) > 0) {
+        const dvec3 before = flip_across(i, f.t);
+        value += share * (1 - masking(f, before)) * evaluate(bsdf, f.p, o, before) * g1;
+    }
+    return value + (1 - share) * evaluate(bsdf, f.p, flip_across(o, f.t), i) * g1;
+}
+
+Scattered sample(const Facets& f, const Bsdf& bsdf, const dvec3& o, bool only_mirror, Random& random) {
+    Scattered drawn;
+    if (f.is_flat()) {
+        drawn = draw(f, bsdf, o, only_mirror, random);
+    } else if (random.uniform() < visible_share(f, o)) {
+        drawn = draw(f, bsdf, o, only_mirror, random);
+        if (drawn.weight != dvec3(0) && random.uniform() >= masking(f, drawn.i)) {
+            drawn.i = flip_across(drawn.i, f.t);
+            drawn.weight *= dot(drawn.i, f.t) > 0 ? masking(f, drawn.i) : 0.0;
+        }
+    } else {
+        drawn = draw(f, bsdf, flip_across(o, f.t), only_mirror, random);
+        drawn.weight *= masking(f, drawn.i);
+    }
+    if (!leaves(f, drawn.i)) {
+        drawn.weight = dvec3(0);
+    }
+    return drawn;
+}
+
+}  // namespace diptych::oracle

@@ -1,0 +1,70 @@
+// The independent renderer: double precision, textbook path tracing, docs/integrand.md and nothing of the shared headers.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "oracle/path.h"
+
+namespace diptych {
+
+struct OracleSettings {
+    int width = 64;
+    int height = 64;
+    unsigned max_depth = 8;  // scattering events
+    std::uint64_t seed = 0;
+    oracle::Mode mode = oracle::Mode::bsdf;
+    oracle::Distribution distribution = oracle::Distribution::ggx;
+    int camera = 0;         // index into the scene's cameras
+    bool by_depth = false;  // keep OracleImage::depths
+};
+
+/// Sums over one pixel's samples. A sample that is not finite, or negative, adds to `nonfinite` alone; its first hit counts.
+struct OraclePixel {
+    glm::dvec3 sum{0};
+    glm::dvec3 first{0};        // the first sample
+    glm::dvec3 sum_squares{0};  // of (sample - first)
+    glm::dvec3 albedo{0};       // sums over all samples: base colour,
+    glm::dvec3 normal{0};       // shading normal,
+    double depth = 0;           // and distance from the ray's start, of the first hit; a miss adds nothing
+    std::uint64_t samples = 0;
+    std::uint64_t nonfinite = 0;
+    std::uint64_t rays = 0;
+};
+
+/// What light that was scattered so many times adds: sums over one pixel's samples.
+struct OracleDepth {
+    glm::dvec3 sum{0};
+    glm::dvec3 sum_squares{0};
+};
+
+/// Row-major from the top.
+struct OracleImage {
+    std::vector<OraclePixel> pixels;
+    std::vector<OracleDepth> depths;  // max_depth + 1 a pixel, where asked for
+};
+
+class Oracle {
+public:
+    /// Keeps a reference to the scene, which must outlive it. `threads` 0 is one a core. Throws Error where the settings
+    /// do not fit the scene.
+    Oracle(const Scene& scene, const OracleSettings& settings, int threads = 0);
+    ~Oracle();
+
+    /// Adds samples first .. first+count-1 to every pixel; a sample is the same whatever was asked for before, and on
+    /// any number of threads. Ends early, within about 0.1 s, once `cancel` is set; each pixel's own count stays right.
+    void render(std::uint64_t first, std::uint64_t count, const std::atomic<bool>& cancel);
+
+    const OracleImage& image() const;
+    /// Of triangles, sums and Embree's structures, and of those alone.
+    std::uint64_t bytes() const;
+    std::uint64_t acceleration_bytes() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace diptych

@@ -1,0 +1,143 @@
+#include "oracle_renderer/oracle_renderer.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <thread>
+
+#include "error.h"
+
+namespace diptych {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A double as the film's pair of floats.
+void split(const glm::dvec3& value, glm::vec3& high, glm::vec3& low) {
+    high = glm::vec3(value);
+    low = glm::vec3(value - glm::dvec3(high));
+}
+
+shared::FilmPixel to_film(const OraclePixel& pixel) {
+    shared::FilmPixel out{};
+    split(pixel.sum, out.sum, out.compensation);
+    out.samples = static_cast<std::uint32_t>(pixel.samples);
+    out.nonfinite = static_cast<std::uint32_t>(pixel.nonfinite);
+    out.rays = static_cast<std::uint32_t>(pixel.rays);
+    out.ray_wraps = static_cast<std::uint32_t>(pixel.rays >> 32U);
+    return out;
+}
+
+/// The film's squares are about the first sample in float, ours about it in double.
+shared::FilmMoments to_moments(const OraclePixel& pixel) {
+    shared::FilmMoments out{};
+    out.first = glm::vec3(pixel.first);
+    const glm::dvec3 shift = pixel.first - glm::dvec3(out.first);
+    const double n = static_cast<double>(pixel.samples);
+    const glm::dvec3 squares =
+        pixel.sum_squares + 2.0 * shift * (pixel.sum - n * pixel.first) + n * shift * shift;
+    split(squares, out.sum_squares, out.compensation);
+    return out;
+}
+
+shared::FilmFirstHit to_first_hit(const OraclePixel& pixel) {
+    shared::FilmFirstHit out{};
+    const double n = static_cast<double>(pixel.samples + pixel.nonfinite);
+    if (n > 0) {
+        out.albedo = glm::vec3(pixel.albedo / n);
+        out.normal = glm::vec3(pixel.normal / n);
+        out.depth = static_cast<float>(pixel.depth / n);
+    }
+    return out;
+}
+
+OracleSettings oracle_settings(const RenderSettings& settings, oracle::Mode mode) {
+    OracleSettings out;
+    out.width = settings.width;
+    out.height = settings.height;
+    out.max_depth = settings.max_depth;
+    out.seed = settings.seed;
+    out.mode = mode;
+    out.distribution =
+        settings.brdf == BrdfModel::ggx ? oracle::Distribution::ggx : oracle::Distribution::blinn_phong;
+    out.camera = settings.camera;
+    return out;
+}
+
+class OracleRenderer final : public Renderer {
+public:
+    OracleRenderer(const Scene& scene, const RenderSettings& settings, oracle::Mode mode, int threads)
+        : settings_(settings), threads_(threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency())),
+          oracle_(scene, oracle_settings(settings, mode), threads) {
+        costs_.build_seconds = seconds_since(start_);
+        costs_.bytes = oracle_.bytes();
+        costs_.acceleration_bytes = oracle_.acceleration_bytes();
+    }
+
+    std::string backend() const override { return "oracle"; }
+    std::string device() const override { return fmt::format("double precision on {} CPU threads", threads_); }
+    RendererCosts costs() const override { return costs_; }
+
+    void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
+        const Clock::time_point start = Clock::now();
+        oracle_.render(first, count, cancel);
+        seconds_ += seconds_since(start);
+    }
+
+    double device_seconds() const override { return seconds_; }
+
+    Film film() const override {
+        Film film;
+        film.width = settings_.width;
+        film.height = settings_.height;
+        for (const OraclePixel& pixel : oracle_.image().pixels) {
+            film.pixels.push_back(to_film(pixel));
+            if (settings_.standard_error) {
+                film.moments.push_back(to_moments(pixel));
+            }
+            if (settings_.first_hit_layers) {
+                film.first_hits.push_back(to_first_hit(pixel));
+            }
+        }
+        return film;
+    }
+
+    TraversalBench bench_traversal(std::uint32_t) override {
+        throw Error("--backend oracle: has no bare traversal to measure; use cpu or vulkan");
+    }
+
+private:
+    Clock::time_point start_ = Clock::now();
+    RenderSettings settings_;
+    int threads_;
+    Oracle oracle_;
+    RendererCosts costs_;
+    double seconds_ = 0;
+};
+
+}  // namespace
+
+oracle::Mode oracle_mode_from_name(const std::string& name) {
+    if (name == "bsdf") {
+        return oracle::Mode::bsdf;
+    }
+    if (name == "hemisphere") {
+        return oracle::Mode::hemisphere;
+    }
+    if (name == "area") {
+        return oracle::Mode::area;
+    }
+    throw Error(fmt::format("--oracle-mode {}: there are only bsdf, hemisphere, area", name));
+}
+
+std::unique_ptr<Renderer> make_oracle_renderer(const Scene& scene, const RenderSettings& settings, oracle::Mode mode,
+                                               int threads) {
+    return std::make_unique<OracleRenderer>(scene, settings, mode, threads);
+}
+
+}  // namespace diptych
