@@ -116,7 +116,7 @@ nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, con
         json["buffers"][buffer.name] = buffer.bytes;
         bytes += buffer.bytes;
     }
-    const std::unique_ptr<Renderer> renderer = make_renderer(packed, request);
+    const std::unique_ptr<Renderer> renderer = make_renderer(scene, packed, request);
     json["backend"] = renderer->backend();
     json["device"] = renderer->device();
     json["acceleration_structures"] = renderer->costs().acceleration_bytes;

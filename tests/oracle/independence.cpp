@@ -39,7 +39,7 @@ struct Source {
 
 std::vector<Source> oracle_sources() {
     std::vector<Source> sources;
-    for (const auto& entry : nlohmann::json::parse(read(fs::path(DIPTYCH_BINARY_DIR) / "compile_commands.json"))) {
+    for (const auto& entry : nlohmann::json::parse(read(fs::path(DIPTYCH_PROGRAM).parent_path() / "compile_commands.json"))) {
         const fs::path file = entry.at("file").get<std::string>();
         if (file.parent_path() == source_root / "cpu_ref/oracle") {
             sources.push_back({file, entry.at("directory").get<std::string>(), entry.at("command").get<std::string>()});
