@@ -51,4 +51,10 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
     return made;
 }
 
+void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants) {
+    Uploader uploader(gpu, sizeof(constants));
+    uploader.upload(bindings.constants, std::as_bytes(std::span(&constants, 1)));
+    uploader.finish();
+}
+
 }  // namespace diptych

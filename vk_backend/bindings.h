@@ -18,4 +18,7 @@ struct Bindings {
 Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::AccelerationStructureKHR structure,
                        const SceneAddresses& addresses, const shared::RenderConstants& constants);
 
+/// Puts other constants in the place of those it was made with. Nothing that reads them may be in flight.
+void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants);
+
 }  // namespace diptych

@@ -30,6 +30,11 @@ FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t featur
     if ((features & shared::FEATURE_FIRST_HIT_LAYERS) != 0) {
         film.first_hits = layer<shared::FilmFirstHit>(gpu, count);
     }
+    clear_film(gpu, film);
+    return film;
+}
+
+void clear_film(const Gpu& gpu, const FilmMemory& film) {
     run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
         for (const Buffer* buffer : {&film.pixels, &film.moments, &film.first_hits}) {
             if (buffer->size > 0) {
@@ -38,7 +43,6 @@ FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t featur
         }
         full_barrier(commands);
     });
-    return film;
 }
 
 void enter_film(SceneAddresses& addresses, const FilmMemory& film) {

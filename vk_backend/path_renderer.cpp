@@ -106,6 +106,14 @@ void PathRenderer::render(std::uint32_t first, std::uint32_t count, const std::a
     });
 }
 
+void PathRenderer::restart(std::uint32_t seed) {
+    in_context("starting over", [&] {
+        constants_.seed = seed;
+        replace_constants(*gpu_, bindings_, constants_);
+        clear_film(*gpu_, film_);
+    });
+}
+
 Film PathRenderer::film() const {
     return in_context("reading the film", [&] { return read_film(*gpu_, film_); });
 }

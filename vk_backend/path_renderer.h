@@ -30,6 +30,7 @@ public:
     std::string device() const override { return gpu_->name; }
     RendererCosts costs() const override { return costs_; }
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override;
+    void restart(std::uint32_t seed) override;
     double device_seconds() const override { return queue_->seconds(); }
     Film film() const override;
     TraversalBench bench_traversal(std::uint32_t samples) override;

@@ -41,6 +41,10 @@ public:
     /// set; the film is valid then too, since every pixel counts its own samples.
     virtual void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) = 0;
 
+    /// Empties the film and goes on with another seed: what follows has the bits of a new renderer with that seed, without building
+    /// anything anew. Time and costs go on counting.
+    virtual void restart(std::uint32_t seed) = 0;
+
     /// Seconds the device itself worked on `render` calls so far: timestamps on a GPU, wall clock on the CPU.
     virtual double device_seconds() const = 0;
 

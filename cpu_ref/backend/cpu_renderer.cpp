@@ -30,16 +30,14 @@ class CpuRenderer final : public Renderer {
 public:
     CpuRenderer(const PackedScene& packed, int threads)
         : packed_(packed),
+          constants_(packed.constants),
           arena_(threads > 0 ? threads : tbb::task_arena::automatic),
           start_(Clock::now()),
           scene_(arena_.execute([&] { return std::make_unique<EmbreeScene>(packed); })) {
         build_seconds_ = seconds_since(start_);
         film_.width = static_cast<int>(packed.constants.size.x);
         film_.height = static_cast<int>(packed.constants.size.y);
-        const std::size_t pixels = static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height);
-        film_.pixels.resize(pixels);
-        film_.moments.resize((packed.features & shared::FEATURE_STANDARD_ERROR) != 0 ? pixels : 0);
-        film_.first_hits.resize((packed.features & shared::FEATURE_FIRST_HIT_LAYERS) != 0 ? pixels : 0);
+        clear_film();
     }
 
     std::string backend() const override { return "cpu"; }
@@ -60,11 +58,23 @@ public:
         seconds_ += seconds_since(start);
     }
 
+    void restart(std::uint32_t seed) override {
+        constants_.seed = seed;
+        clear_film();
+    }
+
     double device_seconds() const override { return seconds_; }
     Film film() const override { return film_; }
     TraversalBench bench_traversal(std::uint32_t samples) override;
 
 private:
+    void clear_film() {
+        const std::size_t pixels = static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height);
+        film_.pixels.assign(pixels, {});
+        film_.moments.assign((packed_.features & shared::FEATURE_STANDARD_ERROR) != 0 ? pixels : 0, {});
+        film_.first_hits.assign((packed_.features & shared::FEATURE_FIRST_HIT_LAYERS) != 0 ? pixels : 0, {});
+    }
+
     template <class Body>
     void for_tiles(const Body& body) const {
         const tbb::blocked_range2d<int> tiles(0, (film_.height + tile_size - 1) / tile_size, 1, 0,
@@ -107,7 +117,7 @@ private:
             if (plain) {
                 accumulate_plain_tile(film, x, y, first, count);
             } else {
-                shared::CpuKernel<PlainTracer, ~0U> kernel{packed_, packed_.constants, {*scene_}};
+                shared::CpuKernel<PlainTracer, ~0U> kernel{packed_, constants_, {*scene_}};
                 accumulate_tile(kernel, film, x, y, first, count);
             }
         });
@@ -116,11 +126,12 @@ private:
     /// One function with everything inlined, so that what a path carries along stays in registers.
     [[gnu::flatten]] void accumulate_plain_tile(Film& film, int tile_x, int tile_y, std::uint32_t first,
                                                 std::uint32_t count) const {
-        shared::CpuKernel<PlainTracer, plain_features> kernel{packed_, packed_.constants, {*scene_}};
+        shared::CpuKernel<PlainTracer, plain_features> kernel{packed_, constants_, {*scene_}};
         accumulate_tile(kernel, film, tile_x, tile_y, first, count);
     }
 
     const PackedScene& packed_;
+    shared::RenderConstants constants_;
     mutable tbb::task_arena arena_;
     Clock::time_point start_;
     std::unique_ptr<EmbreeScene> scene_;
@@ -139,7 +150,7 @@ TraversalBench CpuRenderer::bench_traversal(std::uint32_t samples) {
     };
     Film scratch = film_;
     for_tiles([&](int x, int y) {
-        shared::CpuKernel<RecordingTracer, ~0U> kernel{packed_, packed_.constants, {*scene_, of_tile(x, y)}};
+        shared::CpuKernel<RecordingTracer, ~0U> kernel{packed_, constants_, {*scene_, of_tile(x, y)}};
         accumulate_tile(kernel, scratch, x, y, 0, samples);
     });
 

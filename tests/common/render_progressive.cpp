@@ -25,6 +25,8 @@ public:
     double device_seconds() const override { return clock; }
     TraversalBench bench_traversal(std::uint32_t) override { return {}; }
 
+    void restart(std::uint32_t) override {}
+
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
         firsts.push_back(first);
         counts.push_back(count);

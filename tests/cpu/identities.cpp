@@ -59,6 +59,30 @@ TEST_CASE("Pictures do not depend on how their samples are sliced") {
     CHECK_FALSE(same_film(render_cpu(scene, settings, 40), a));
 }
 
+TEST_CASE("A renderer that starts over has the bits of a new one with that seed") {
+    const Scene scene = load_own_scene("cornell");
+    RenderSettings settings = small_settings(Integrator::path, BrdfModel::ggx);
+    settings.standard_error = true;
+    settings.first_hit_layers = true;
+    const PackedScene packed = pack_scene(scene, settings);
+    const std::atomic<bool> cancel{false};
+    const auto renderer = make_cpu_renderer(packed, 2);
+    renderer->render(0, 3, cancel);
+    renderer->restart(77);
+    renderer->render(0, 5, cancel);
+    settings.seed = 77;
+    const Film fresh = render_cpu(scene, settings, 5);
+    const Film again = renderer->film();
+    CHECK(same_film(fresh, again));
+    for (std::size_t i = 0; i < fresh.pixels.size(); ++i) {
+        CHECK(fresh.moments[i].sum_squares == again.moments[i].sum_squares);
+        CHECK(fresh.first_hits[i].albedo == again.first_hits[i].albedo);
+    }
+    renderer->restart(78);
+    renderer->render(0, 5, cancel);
+    CHECK_FALSE(same_film(fresh, renderer->film()));
+}
+
 TEST_CASE("A cancelled render leaves a film that is true to its counts") {
     const Scene scene = load_own_scene("cornell");
     const PackedScene packed = pack_scene(scene, small_settings(Integrator::path, BrdfModel::ggx));

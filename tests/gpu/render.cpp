@@ -53,6 +53,26 @@ TEST_CASE("A render in many slices has the film of one in few, bit for bit") {
     check_no_validation_messages();
 }
 
+TEST_CASE("A renderer that starts over has the bits of a new one with that seed, on the device") {
+    NEED_DEVICE();
+    RenderSettings settings = small_settings();
+    PackedScene packed = generated_scene("cornell", settings);
+    PathRenderer renderer(packed, test_options(), {.ray_generation = {}, .slice_budget = 100});
+    const std::atomic<bool> cancel = false;
+    renderer.render(0, 2, cancel);
+    renderer.restart(77);
+    renderer.render(0, 3, cancel);
+    packed.constants.seed = 77;
+    const Film fresh = render_film(packed, 3, 100);
+    CHECK(same_bytes(fresh.pixels, renderer.film().pixels));
+    CHECK(same_bytes(fresh.moments, renderer.film().moments));
+    CHECK(same_bytes(fresh.first_hits, renderer.film().first_hits));
+    renderer.restart(0);
+    renderer.render(0, 3, cancel);
+    CHECK_FALSE(same_bytes(fresh.pixels, renderer.film().pixels));
+    check_no_validation_messages();
+}
+
 TEST_CASE("A specialised pipeline gives the image of the generic one") {
     NEED_VULKAN();
     const std::string name = GENERATE("cornell", "veach-mis", "normal-map");
