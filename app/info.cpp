@@ -12,6 +12,7 @@
 #include "render/film.h"
 #include "report.h"
 #include "scene/default_camera.h"
+#include "scene/pose.h"
 #include "scene_setup.h"
 
 namespace diptych::app {
@@ -103,6 +104,8 @@ nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, con
     for (const Camera& camera : scene.cameras) {
         json["cameras"].push_back(camera.name);
     }
+    json["animations"] = scene.animations.size();
+    json["animation_seconds"] = duration(scene);
     if (!is_empty(bounds)) {
         json["bounds"] = {{bounds.lo.x, bounds.lo.y, bounds.lo.z}, {bounds.hi.x, bounds.hi.y, bounds.hi.z}};
     }
@@ -143,6 +146,9 @@ void print_text(const nlohmann::ordered_json& json) {
     fmt::print("  materials   {}, textures {} of {} images\n", number("materials"), number("textures"),
                number("images"));
     fmt::print("  cameras     {}\n", words(json.at("cameras")));
+    if (number("animations") > 0) {
+        fmt::print("  animations  {}, {} s long\n", number("animations"), json.at("animation_seconds").get<double>());
+    }
     if (json.contains("bounds")) {
         fmt::print("  bounds      {} to {}\n", json["bounds"][0].dump(), json["bounds"][1].dump());
     }

@@ -26,4 +26,12 @@
     X(vec4, environment_texels)             \
     X(AliasEntry, environment_table)
 
+// Those that differ between two moments of a scene that moves.
+#define MOVING_BUFFERS(X)                   \
+    X(Instance, instances)                  \
+    X(Material, materials)                  \
+    X(EmissiveTriangle, emissive_triangles) \
+    X(PunctualLight, punctual_lights)       \
+    X(AliasEntry, light_table)
+
 #endif

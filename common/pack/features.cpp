@@ -51,7 +51,8 @@ std::uint32_t light_features(const Scene& scene) {
 
 bool emits(const Material& material) {
     const glm::vec3 radiance = material.unlit ? glm::vec3(material.base_color) : material.emission;
-    return radiance.x > 0 || radiance.y > 0 || radiance.z > 0;
+    const bool moves = material.moving_emission && !material.unlit;
+    return moves || radiance.x > 0 || radiance.y > 0 || radiance.z > 0;
 }
 
 std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings) {

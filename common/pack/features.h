@@ -10,7 +10,7 @@
 
 namespace diptych {
 
-/// Whether a material's emission can be anything but zero.
+/// Whether a material's emission can be anything but zero, at any moment.
 bool emits(const Material& material);
 
 /// FEATURE_… bits (scene_features.h) that this render needs; every bit where settings.generic.

@@ -4,7 +4,7 @@
 
 namespace diptych {
 
-void pack_camera(const Scene& scene, const RenderSettings& settings, const glm::dvec3& origin, PackedScene& packed) {
+void pack_camera(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
     shared::Camera& out = packed.constants.camera;
     out.forward = {0, 0, -1};
     out.focus_distance = 1;
@@ -16,7 +16,7 @@ void pack_camera(const Scene& scene, const RenderSettings& settings, const glm::
     const double half_height = camera.orthographic ? camera.orthographic_height / 2 : std::tan(camera.vertical_fov / 2);
     const double half_width = half_height * settings.width / settings.height;
     out.kind = camera.orthographic ? shared::CAMERA_ORTHOGRAPHIC : shared::CAMERA_PERSPECTIVE;
-    out.origin = glm::vec3(glm::dvec3(m[3]) - origin);
+    out.origin = glm::vec3(glm::dvec3(m[3]) - packed.origin);
     out.right = glm::vec3(glm::dvec3(m[0]) * half_width);
     out.up = glm::vec3(glm::dvec3(m[1]) * half_height);
     out.forward = glm::vec3(-glm::normalize(glm::dvec3(m[2])));

@@ -22,18 +22,52 @@ glm::dvec3 world_position(const shared::Instance& i, const glm::vec3& p) {
     return {glm::dot(glm::dvec4(i.row_0), q), glm::dot(glm::dvec4(i.row_1), q), glm::dot(glm::dvec4(i.row_2), q)};
 }
 
-/// One geometry of one instance, triangle by triangle, in order: light id = first id + triangle. Returns the powers' luminances.
-void add_emitters(const shared::Instance& instance, std::uint32_t geometry_index, std::uint32_t triangle_count,
-                  const EmissionMean& emission, PackedScene& packed, std::vector<double>& powers) {
+bool is_emissive(const PackedScene& packed, std::uint32_t geometry) {
+    return (packed.materials[packed.geometries[geometry].material].flags & shared::MATERIAL_EMISSIVE) != 0;
+}
+
+/// Which light each emissive triangle is: instance by instance, geometry by geometry, triangle by triangle, in order.
+void lay_out_emitters(PackedScene& packed) {
+    for (std::size_t i = 0; i < packed.instances.size(); ++i) {
+        const MeshRange range = packed.meshes[packed.instance_meshes[i]];
+        const std::uint32_t end = range.first_geometry + range.geometry_count;
+        bool any = false;
+        for (std::uint32_t g = range.first_geometry; g < end; ++g) {
+            any = any || is_emissive(packed, g);
+        }
+        if (!any) {
+            continue;
+        }
+        packed.instances[i].first_emitter_slot = static_cast<std::uint32_t>(packed.emitter_slots.size());
+        for (std::uint32_t g = range.first_geometry; g < end; ++g) {
+            const auto first = static_cast<std::uint32_t>(packed.emissive_triangles.size());
+            packed.emitter_slots.push_back(is_emissive(packed, g) ? first : shared::NONE);
+            const std::uint32_t count = is_emissive(packed, g) ? packed.geometry_extents[g].triangle_count : 0;
+            for (std::uint32_t t = 0; t < count; ++t) {
+                shared::EmissiveTriangle light{};
+                light.geometry = g;
+                light.primitive = t;
+                packed.emissive_triangles.push_back(light);
+            }
+        }
+    }
+}
+
+/// One geometry of one instance, whose lights begin at `first`.
+void place_geometry(PackedScene& packed, std::size_t instance_index, std::uint32_t geometry_index, std::uint32_t first,
+                    bool materials_changed) {
+    const shared::Instance& instance = packed.instances[instance_index];
     const shared::Geometry& geometry = packed.geometries[geometry_index];
     const shared::Material& material = packed.materials[geometry.material];
+    const bool shown = packed.instance_shown[instance_index] != 0;
     const bool unlit = (material.flags & shared::MATERIAL_UNLIT) != 0;
     const std::uint32_t slot = unlit ? material.base_color_slot : material.emission_slot;
     const std::uint32_t alpha = shared::MATERIAL_ALPHA_MASK | shared::MATERIAL_ALPHA_BLEND;
     const bool varies = slot != shared::NONE || (material.flags & alpha) != 0 ||
                         (unlit && geometry.first_color != shared::NONE);
     const bool two_sided = (material.flags & shared::MATERIAL_DOUBLE_SIDED) != 0;
-    for (std::uint32_t t = 0; t < triangle_count; ++t) {
+    const EmissionMean emission(packed);
+    for (std::uint32_t t = 0; t < packed.geometry_extents[geometry_index].triangle_count; ++t) {
         const glm::uvec3 triangle = packed.triangles[geometry.first_triangle + t];
         const auto corner = [&](std::uint32_t v) {
             return world_position(instance, packed.positions[geometry.first_vertex + v]);
@@ -41,52 +75,24 @@ void add_emitters(const shared::Instance& instance, std::uint32_t geometry_index
         const glm::dvec3 a = corner(triangle.x);
         const glm::dvec3 edge_1 = corner(triangle.y) - a;
         const glm::dvec3 edge_2 = corner(triangle.z) - a;
-        shared::EmissiveTriangle light{};
+        shared::EmissiveTriangle& light = packed.emissive_triangles[first + t];
         light.vertex_0 = a;
         light.edge_1 = edge_1;
         light.edge_2 = edge_2;
         light.flags = (two_sided ? shared::EMITTER_TWO_SIDED : 0U) |
                       (instance.mirrored != 0 ? shared::EMITTER_MIRRORED : 0U) |
                       (varies ? shared::EMITTER_VARIES : 0U);
-        light.geometry = geometry_index;
-        light.primitive = t;
         light.radiance = unlit ? glm::vec3(material.base_color) : material.emission;
+        double& mean = packed.emitter_means[first + t];
+        if (materials_changed) {
+            mean = varies ? emission.luminance(light) : luminance(glm::dvec3(light.radiance));
+        }
         // In fp32, as the samplers will see it: what has no area there is no light.
-        const bool has_area = glm::length(glm::cross(light.edge_1, light.edge_2)) > 0;
+        const bool has_area = shown && glm::length(glm::cross(light.edge_1, light.edge_2)) > 0;
         const double area = 0.5 * glm::length(glm::cross(edge_1, edge_2));
-        const double mean = varies ? emission.luminance(light) : luminance(glm::dvec3(light.radiance));
         // A texture's samples may all miss what is bright: the material's own factor keeps such a light alive.
         const double floor = varies ? 1e-3 * luminance(glm::dvec3(light.radiance)) : 0;
-        powers.push_back(has_area ? std::max(mean, floor) * area * pi * (two_sided ? 2 : 1) : 0.0);
-        packed.emissive_triangles.push_back(light);
-    }
-}
-
-void pack_emitters(PackedScene& packed, std::vector<double>& powers) {
-    const EmissionMean emission(packed);
-    for (std::size_t i = 0; i < packed.instances.size(); ++i) {
-        const MeshRange range = packed.meshes[packed.instance_meshes[i]];
-        const auto emissive = [&](std::uint32_t geometry) {
-            return (packed.materials[packed.geometries[geometry].material].flags & shared::MATERIAL_EMISSIVE) != 0;
-        };
-        bool any = false;
-        for (std::uint32_t g = 0; g < range.geometry_count; ++g) {
-            any = any || emissive(range.first_geometry + g);
-        }
-        if (!any) {
-            continue;
-        }
-        packed.instances[i].first_emitter_slot = static_cast<std::uint32_t>(packed.emitter_slots.size());
-        for (std::uint32_t g = 0; g < range.geometry_count; ++g) {
-            const std::uint32_t geometry = range.first_geometry + g;
-            packed.emitter_slots.push_back(emissive(geometry)
-                                               ? static_cast<std::uint32_t>(packed.emissive_triangles.size())
-                                               : shared::NONE);
-            if (emissive(geometry)) {
-                add_emitters(packed.instances[i], geometry, packed.geometry_extents[geometry].triangle_count, emission,
-                             packed, powers);
-            }
-        }
+        packed.light_powers[first + t] = has_area ? std::max(mean, floor) * area * pi * (two_sided ? 2 : 1) : 0.0;
     }
 }
 
@@ -116,11 +122,26 @@ void pack_spot_cone(const PunctualLight& light, shared::PunctualLight& out) {
     out.cone_offset = static_cast<float>(-cos_outer * scale);
 }
 
-void pack_punctual(const Scene& scene, const glm::dvec3& origin, double radius, PackedScene& packed,
-                   std::vector<double>& powers) {
+}  // namespace
+
+void place_emitters(PackedScene& packed, std::size_t instance, bool materials_changed) {
+    const MeshRange range = packed.meshes[packed.instance_meshes[instance]];
+    const std::uint32_t slots = packed.instances[instance].first_emitter_slot;
+    for (std::uint32_t g = 0; slots != shared::NONE && g < range.geometry_count; ++g) {
+        if (packed.emitter_slots[slots + g] != shared::NONE) {
+            place_geometry(packed, instance, range.first_geometry + g, packed.emitter_slots[slots + g],
+                           materials_changed);
+        }
+    }
+}
+
+void place_punctual_lights(const Scene& scene, PackedScene& packed) {
+    std::vector<double>& powers = packed.light_powers;
+    powers.resize(packed.emissive_triangles.size());
+    packed.punctual_lights.clear();
     for (const PunctualLight& light : scene.lights) {
         shared::PunctualLight out{};
-        out.position = glm::dvec3(light.light_to_world[3]) - origin;
+        out.position = glm::dvec3(light.light_to_world[3]) - packed.origin;
         out.direction = -glm::normalize(glm::dvec3(light.light_to_world[2]));
         out.intensity = light.intensity;
         const double strength = luminance(glm::dvec3(light.intensity));
@@ -137,32 +158,23 @@ void pack_punctual(const Scene& scene, const glm::dvec3& origin, double radius, 
                 break;
             case PunctualType::directional:
                 out.type = shared::PUNCTUAL_DIRECTIONAL;
-                powers.push_back(pi * radius * radius * strength);
+                powers.push_back(pi * packed.radius * packed.radius * strength);
                 break;
         }
         packed.punctual_lights.push_back(out);
     }
 }
 
-}  // namespace
-
-void pack_lights(const Scene& scene, const RenderSettings& settings, const glm::dvec3& origin,
-                 double environment_luminance, PackedScene& packed) {
+void weigh_lights(PackedScene& packed) {
     shared::RenderConstants& constants = packed.constants;
+    std::vector<double>& powers = packed.light_powers;
+    powers.resize(packed.emissive_triangles.size() + packed.punctual_lights.size());
     // Material sampling finds every light but the punctual ones by itself.
-    const bool samples_all = settings.integrator != Integrator::brdf;
-    std::vector<double> powers;
-    if (samples_all) {
-        pack_emitters(packed, powers);
-    }
-    const double radius = scene.lights.empty() && environment_luminance == 0 ? 1.0 : scene_radius(packed);
-    pack_punctual(scene, origin, radius, packed, powers);
-    const bool samples_environment = samples_all && environment_luminance > 0;
+    const bool samples_environment =
+        constants.integrator != shared::INTEGRATOR_BRDF && packed.environment_luminance > 0;
     if (samples_environment) {
-        powers.push_back(4 * pi * pi * radius * radius * environment_luminance);
+        powers.push_back(4 * pi * pi * packed.radius * packed.radius * packed.environment_luminance);
     }
-    require_indexable(scene, powers.size(), "lights");
-
     const std::vector<double> pmf = pick_probabilities(powers, defensive_share);
     std::size_t next = 0;
     for (shared::EmissiveTriangle& light : packed.emissive_triangles) {
@@ -177,10 +189,28 @@ void pack_lights(const Scene& scene, const RenderSettings& settings, const glm::
     const bool any = std::any_of(pmf.begin(), pmf.end(), [](double p) { return p > 0; });
     if (any) {
         packed.light_table = build_alias_table(pmf);
+    } else {
+        packed.light_table.assign(packed.moves ? powers.size() : 0, {1, 0});
     }
-    constants.light_count = static_cast<std::uint32_t>(packed.light_table.size());
+    constants.light_count = any ? static_cast<std::uint32_t>(packed.light_table.size()) : 0;
     constants.emissive_triangle_count = static_cast<std::uint32_t>(packed.emissive_triangles.size());
     constants.punctual_light_count = static_cast<std::uint32_t>(packed.punctual_lights.size());
+}
+
+void pack_lights(const Scene& scene, PackedScene& packed) {
+    if (packed.constants.integrator != shared::INTEGRATOR_BRDF) {
+        lay_out_emitters(packed);
+    }
+    packed.emitter_means.resize(packed.emissive_triangles.size());
+    packed.light_powers.resize(packed.emissive_triangles.size());
+    for (std::size_t i = 0; i < packed.instances.size(); ++i) {
+        place_emitters(packed, i, true);
+    }
+    const bool asks_size = !scene.lights.empty() || packed.environment_luminance > 0;
+    packed.radius = asks_size ? scene_radius(packed) : 1.0;
+    place_punctual_lights(scene, packed);
+    require_indexable(scene, packed.light_powers.size() + 1, "lights");
+    weigh_lights(packed);
 }
 
 }  // namespace diptych

@@ -54,34 +54,40 @@ void pack_meshes(const Scene& scene, PackedScene& packed) {
     }
 }
 
-void pack_instances(const Scene& scene, const glm::dvec3& origin, PackedScene& packed) {
-    for (const Instance& instance : scene.instances) {
+bool place_instance(const Instance& instance, const glm::dvec3& origin, shared::Instance& out) {
+    const glm::dmat4& m = instance.object_to_world;
+    const glm::dmat3 linear(m);
+    const double determinant = glm::determinant(linear);
+    const double scale = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+    const auto row = [&](int r) { return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r] - origin[r])); };
+    out.row_0 = row(0);
+    out.row_1 = row(1);
+    out.row_2 = row(2);
+    out.mirrored = determinant < 0 ? 1U : 0U;
+    // Against the columns' lengths, so that small scales are no reason to refuse.
+    return std::abs(determinant) > 1e-12 * scale && std::isfinite(scale);
+}
+
+void pack_instances(const Scene& scene, PackedScene& packed) {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
         const MeshRange& range = packed.meshes[static_cast<std::size_t>(instance.mesh)];
         if (range.geometry_count == 0) {
             continue;
         }
-        const glm::dmat4& m = instance.object_to_world;
-        const glm::dmat3 linear(m);
-        const double determinant = glm::determinant(linear);
-        const double scale = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-        // Against the columns' lengths, so that small scales are no reason to refuse.
-        if (!(std::abs(determinant) > 1e-12 * scale) || !std::isfinite(scale)) {
+        shared::Instance out{};
+        const bool shown = place_instance(instance, packed.origin, out);
+        if (!shown && instance.node == none) {
             packed.warnings.push_back(scene.name + ": instance \"" + instance.name +
                                       "\": its transform flattens it to nothing; left out");
             continue;
         }
-        shared::Instance out{};
-        const auto row = [&](int r) {
-            return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r] - origin[r]));
-        };
-        out.row_0 = row(0);
-        out.row_1 = row(1);
-        out.row_2 = row(2);
         out.first_geometry = range.first_geometry;
         out.first_emitter_slot = shared::NONE;
-        out.mirrored = determinant < 0 ? 1U : 0U;
         packed.instances.push_back(out);
         packed.instance_meshes.push_back(static_cast<std::uint32_t>(instance.mesh));
+        packed.scene_instances.push_back(static_cast<std::uint32_t>(i));
+        packed.instance_shown.push_back(shown ? 1 : 0);
     }
     require_indexable(scene, packed.instances.size(), "instances");
 }

@@ -11,19 +11,30 @@ void pack_materials(const Scene& scene, PackedScene& packed);
 /// Meshes, their geometries and vertices. Attributes that no feature reads stay out.
 void pack_meshes(const Scene& scene, PackedScene& packed);
 
-/// Instances, moved by -origin. One whose transform has no inverse is left out with a warning.
-void pack_instances(const Scene& scene, const glm::dvec3& origin, PackedScene& packed);
+/// Instances, moved by -origin. One whose transform has no inverse is left out with a warning, unless it moves.
+void pack_instances(const Scene& scene, PackedScene& packed);
+
+/// Transform and orientation alone. False where there is no inverse.
+bool place_instance(const Instance& instance, const glm::dvec3& origin, shared::Instance& out);
 
 /// The camera of the settings, moved by -origin; the whole image plane has the aspect of the film.
-void pack_camera(const Scene& scene, const RenderSettings& settings, const glm::dvec3& origin, PackedScene& packed);
+void pack_camera(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 /// Radiance and alias table of the environment; leaves constants.environment.pmf to pack_lights. Returns the mean luminance over
 /// the sphere.
 double pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 /// Emissive triangles, punctual lights and the table that picks among all lights. Needs everything above.
-void pack_lights(const Scene& scene, const RenderSettings& settings, const glm::dvec3& origin, double environment_luminance,
-                 PackedScene& packed);
+void pack_lights(const Scene& scene, PackedScene& packed);
+
+/// Places the lights of one instance anew, its means too where the materials changed.
+void place_emitters(PackedScene& packed, std::size_t instance, bool materials_changed);
+
+/// Punctual lights as the scene has them now. Emitters' powers must be known.
+void place_punctual_lights(const Scene& scene, PackedScene& packed);
+
+/// Picking probabilities and the light table, from the lights' powers.
+void weigh_lights(PackedScene& packed);
 
 /// Throws Error unless `size` elements of a buffer can be named by 32-bit indices.
 void require_indexable(const Scene& scene, std::size_t size, const char* what);

@@ -45,13 +45,15 @@ PackedScene pack_scene(const Scene& scene, const RenderSettings& settings) {
     PackedScene packed;
     packed.features = needed_features(scene, settings);
     pack_settings(settings, packed.constants);
-    const glm::dvec3 origin = rebase_origin(scene, settings);
+    packed.origin = rebase_origin(scene, settings);
+    packed.moves = !scene.animations.empty();
+    packed.keeps_previous = settings.moves;
     pack_materials(scene, packed);
     pack_meshes(scene, packed);
-    pack_instances(scene, origin, packed);
-    pack_camera(scene, settings, origin, packed);
-    const double environment_luminance = pack_environment(scene, settings, packed);
-    pack_lights(scene, settings, origin, environment_luminance, packed);
+    pack_instances(scene, packed);
+    pack_camera(scene, settings, packed);
+    packed.environment_luminance = pack_environment(scene, settings, packed);
+    pack_lights(scene, packed);
     // A reader of the last vertex may fetch 16 bytes at once, as Embree does.
     packed.positions.emplace_back(0.0F);
     return packed;

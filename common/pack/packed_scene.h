@@ -38,16 +38,38 @@ struct PackedScene : shared::SceneBuffers {
     std::vector<MeshRange> meshes;
     std::vector<GeometryExtent> geometry_extents;  // parallel to geometries
     std::vector<std::uint32_t> instance_meshes;    // parallel to instances: index into meshes
+    std::vector<std::uint8_t> instance_shown;      // parallel to instances: 0 where no ray may hit it, flat as it is just now
     shared::RenderConstants constants{};
     std::vector<std::string> warnings;  // one line each: what was left out because it cannot be rendered
     std::uint32_t features = 0;         // FEATURE_… bits that the scene and the settings need, or all of them if generic
+    bool keeps_previous = false;        // acceleration structures of the moment before stay, for settings.moves
+
+    // For pack_moment alone.
+    glm::dvec3 origin{0};                         // world space of the file minus this is ours
+    double radius = 1;                            // of the scene as first packed, for picking probabilities
+    double environment_luminance = 0;             // mean over the sphere
+    std::vector<std::uint32_t> scene_instances;   // parallel to instances: index into Scene::instances
+    std::vector<double> emitter_means;            // parallel to emissive_triangles: mean luminance of what they emit
+    std::vector<double> light_powers;             // what light_table was built from
+    bool moves = false;                           // light_table keeps its size even where all is dark
 };
+
+/// Whether rays may hit an instance; one that was added by hand always shows.
+inline bool is_shown(const PackedScene& packed, std::size_t instance) {
+    return instance >= packed.instance_shown.size() || packed.instance_shown[instance] != 0;
+}
 
 /// Bytes of every buffer together.
 std::uint64_t buffer_bytes(const PackedScene& packed);
 
-/// Flattens a scene for one render, rebased so that the camera is the origin: what is near it keeps fp32's full precision. Buffers behind features that are left out stay empty. Triangle indices in `triangles` count
-/// from their geometry's first vertex. Throws Error where the scene holds more than 32-bit indices can name.
+/// Flattens a scene for one render, rebased so that the camera is the origin: what is near it keeps fp32's full
+/// precision. Buffers behind features that are left out stay empty. Triangle indices in `triangles` count from their
+/// geometry's first vertex. Throws Error where the scene holds more than 32-bit indices can name.
 PackedScene pack_scene(const Scene& scene, const RenderSettings& settings);
+
+/// Overwrites what moves (MOVING_BUFFERS and the camera) with the same scene at another moment; nothing else is touched,
+/// and every index and count stays, light ids included. Origin and radius are those of pack_scene, so that a moment
+/// depends on no other. Keeps constants.seed. Throws Error where the scene is another one.
+void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 }  // namespace diptych

@@ -24,6 +24,7 @@ struct RenderSettings {
     bool standard_error = false;       // keep second moments
     bool first_hit_layers = false;     // keep albedo, normal, depth
     bool generic = false;              // leave nothing out: every feature on
+    bool moves = false;                // the scene has other moments, which reuse will look back to
 };
 
 }  // namespace diptych

@@ -13,5 +13,6 @@ GeneratedScene generate_normal_map(const GenerateOptions& options);
 GeneratedScene generate_courtyard(const GenerateOptions& options);
 GeneratedScene generate_many_lights(const GenerateOptions& options);
 GeneratedScene generate_mirror_maze(const GenerateOptions& options);
+GeneratedScene generate_moving_light(const GenerateOptions& options);
 
 }  // namespace diptych

@@ -16,9 +16,9 @@ using Json = nlohmann::json;
 // Far deeper than any glTF, and shallow enough for a parser that recurses.
 constexpr int max_json_depth = 128;
 
-constexpr std::array<const char*, 7> supported_extensions{
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",    "KHR_materials_specular",
-    "KHR_materials_unlit", "KHR_mesh_quantization",           "KHR_texture_transform"};
+constexpr std::array<const char*, 8> supported_extensions{
+    "KHR_animation_pointer",  "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_materials_unlit", "KHR_mesh_quantization",           "KHR_texture_transform"};
 
 template <class List>
 bool contains(const List& list, const std::string& word) {
@@ -265,6 +265,7 @@ Document read_document(const std::filesystem::path& path, const std::vector<std:
     check_extensions(document, root, ignored_extensions);
     const Json buffers = take_array(root, "buffers");
     const Json images = take_array(root, "images");
+    document.animations = take_array(root, "animations");
     root.erase("extras");
 
     const std::string text = root.dump();

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <tiny_gltf.h>
@@ -23,8 +24,9 @@ struct EncodedImage {
 struct Document {
     std::string file;
     std::filesystem::path folder;
-    tinygltf::Model model;  // its `images` and buffers' `uri` are empty: both are read by this project
+    tinygltf::Model model;  // its `images`, `animations` and buffers' `uri` are empty: this project reads them
     std::vector<EncodedImage> images;
+    nlohmann::json animations;  // an array, as it stands in the file
     std::vector<std::string> warnings;
     std::set<std::string> warned;
 };

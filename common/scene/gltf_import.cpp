@@ -6,6 +6,7 @@
 
 #include "error.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_animation.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
@@ -73,7 +74,8 @@ int add_mesh(Document& document, Scene& scene, int mesh, const MeshUse& use) {
     return static_cast<int>(scene.meshes.size()) - 1;
 }
 
-void add_instance(Document& document, Scene& scene, const NodeTree& tree, int node, MeshTable& table) {
+void add_instance(Document& document, Scene& scene, const NodeTree& tree, const Motion& motion, int node,
+                  MeshTable& table) {
     const tinygltf::Node& holder = document.model.nodes[static_cast<std::size_t>(node)];
     if (holder.mesh < 0 || static_cast<std::size_t>(holder.mesh) >= document.model.meshes.size()) {
         fail(document, node_label(document, node) + ".mesh", "there is no meshes[" + std::to_string(holder.mesh) + "]");
@@ -86,7 +88,9 @@ void add_instance(Document& document, Scene& scene, const NodeTree& tree, int no
         instance.mesh = add_mesh(document, scene, holder.mesh, use);
     } else {
         instance.object_to_world = tree.to_world[static_cast<std::size_t>(node)];
-        if (glm::determinant(glm::dmat3(instance.object_to_world)) == 0) {
+        instance.node = motion.node(node);
+        // What moves may have a size at another moment.
+        if (instance.node == none && glm::determinant(glm::dmat3(instance.object_to_world)) == 0) {
             warn(document, node_label(document, node), "has a scale of 0; left out");
             return;
         }
@@ -104,25 +108,28 @@ void add_instance(Document& document, Scene& scene, const NodeTree& tree, int no
 Scene import_document(Document& document) {
     Scene scene;
     scene.name = document.file;
-    if (!document.model.animations.empty()) {
-        warn(document, "animations", "are not played; the scene is shown at rest");
-    }
     import_materials(document, scene);
     const NodeTree tree = read_nodes(document);
+    const Motion motion = read_motion(document, tree, scene);
     MeshTable table;
+    std::vector<int> light_sources;
     for (const int node : tree.visible) {
         const tinygltf::Node& holder = document.model.nodes[static_cast<std::size_t>(node)];
         const glm::dmat4& to_world = tree.to_world[static_cast<std::size_t>(node)];
         if (holder.mesh != none) {
-            add_instance(document, scene, tree, node, table);
+            add_instance(document, scene, tree, motion, node, table);
         }
         if (holder.camera != none) {
             scene.cameras.push_back(import_camera(document, holder.camera, node, to_world));
+            scene.cameras.back().node = motion.node(node);
         }
-        if (std::optional<PunctualLight> light = import_light(document, node, to_world)) {
-            scene.lights.push_back(*std::move(light));
+        if (const int light = find_light(document, node); light != none) {
+            scene.lights.push_back(import_light(document, light, node, to_world));
+            scene.lights.back().node = motion.node(node);
+            light_sources.push_back(light);
         }
     }
+    attach_motion(document, motion, light_sources, scene);
     if (scene.instances.empty()) {
         warn(document, "scene", "has no triangles");
     }

@@ -50,7 +50,12 @@ float max_component(const glm::vec3& v) {
 
 void add_emission(Json& out, const Material& material, std::set<std::string>& extensions) {
     const float strongest = max_component(material.emission);
-    if (strongest > 1) {
+    if (material.moving_emission) {
+        extensions.insert("KHR_materials_emissive_strength");
+        const float strength = material.moving_emission->strength;
+        out["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = decimal(strength);
+        out["emissiveFactor"] = json_vector(material.moving_emission->factor);
+    } else if (strongest > 1) {
         extensions.insert("KHR_materials_emissive_strength");
         out["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = decimal(strongest);
         out["emissiveFactor"] = json_vector(material.emission / strongest);
@@ -130,7 +135,10 @@ Json json_light(const PunctualLight& light) {
     Json out;
     if (!light.name.empty())
         out["name"] = light.name;
-    const float strongest = max_component(light.intensity);
+    // A light that is dark at rest keeps its colour for when it is not.
+    const float strongest = light.moving_color && max_component(*light.moving_color) > 0
+                                ? max_component(light.intensity) / max_component(*light.moving_color)
+                                : max_component(light.intensity);
     switch (light.type) {
     case PunctualType::point:
         out["type"] = "point";
@@ -144,7 +152,9 @@ Json json_light(const PunctualLight& light) {
         out["spot"]["outerConeAngle"] = light.outer_cone;
         break;
     }
-    if (strongest > 0)
+    if (light.moving_color)
+        out["color"] = json_vector(*light.moving_color);
+    else if (strongest > 0)
         out["color"] = json_vector(light.intensity / strongest);
     out["intensity"] = decimal(strongest);
     return out;

@@ -181,11 +181,6 @@ void import_extensions(Context& context, const tinygltf::Material& source, const
         return found == source.extensions.end() ? nullptr : &found->second;
     };
     Document& document = context.document;
-    if (const tinygltf::Value* strength = extension("KHR_materials_emissive_strength")) {
-        const float factor =
-            in_range(document, number(*strength, "emissiveStrength", 1), 0, unbounded, object + ".emissiveStrength");
-        material.emission = glm::min(material.emission * factor, glm::vec3(std::numeric_limits<float>::max()));
-    }
     if (const tinygltf::Value* ior = extension("KHR_materials_ior")) {
         // 0 is the extension's word for a Fresnel term of 1.
         const double value = number(*ior, "ior", 1.5);
@@ -231,10 +226,8 @@ Material import_material(Context& context, const tinygltf::Material& source, con
     material.roughness = in_range(document, pbr.roughnessFactor, 0, 1, object + ".roughnessFactor");
     material.normal_scale =
         in_range(document, source.normalTexture.scale, -unbounded, unbounded, object + ".normalTexture.scale");
-    for (std::size_t i = 0; i < 3 && i < source.emissiveFactor.size(); ++i) {
-        material.emission[static_cast<int>(i)] =
-            in_range(document, source.emissiveFactor[i], 0, unbounded, object + ".emissiveFactor");
-    }
+    const MovingEmission emission = read_emission(document, source, object);
+    material.emission = glm::min(emission.factor * emission.strength, glm::vec3(std::numeric_limits<float>::max()));
     material.alpha_mode = alpha_mode(document, source.alphaMode, object);
     material.alpha_cutoff = in_range(document, source.alphaCutoff, 0, unbounded, object + ".alphaCutoff");
     material.double_sided = source.doubleSided;
@@ -248,6 +241,20 @@ Material import_material(Context& context, const tinygltf::Material& source, con
 }
 
 }  // namespace
+
+MovingEmission read_emission(Document& document, const tinygltf::Material& source, const std::string& object) {
+    MovingEmission emission;
+    for (std::size_t i = 0; i < 3 && i < source.emissiveFactor.size(); ++i) {
+        emission.factor[static_cast<int>(i)] =
+            in_range(document, source.emissiveFactor[i], 0, unbounded, object + ".emissiveFactor");
+    }
+    const auto extension = source.extensions.find("KHR_materials_emissive_strength");
+    if (extension != source.extensions.end()) {
+        emission.strength = in_range(document, number(extension->second, "emissiveStrength", 1), 0, unbounded,
+                                     object + ".emissiveStrength");
+    }
+    return emission;
+}
 
 void import_materials(Document& document, Scene& scene) {
     Context context{document, scene, {}};

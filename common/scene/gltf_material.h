@@ -11,4 +11,7 @@ namespace diptych::gltf {
 /// an image that is used cannot be decoded.
 void import_materials(Document& document, Scene& scene);
 
+/// The factor and the strength of a material's emission, clamped likewise; `object` names it in warnings.
+MovingEmission read_emission(Document& document, const tinygltf::Material& source, const std::string& object);
+
 }  // namespace diptych::gltf

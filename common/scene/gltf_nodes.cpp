@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "scene/scene.h"
+#include "scene/pose.h"
 
 namespace diptych::gltf {
 namespace {
@@ -19,7 +19,7 @@ bool is_finite(const glm::dmat4& matrix) {
     return true;
 }
 
-glm::dmat4 rotation_matrix(Document& document, const std::vector<double>& q, const std::string& object) {
+glm::dvec4 unit_rotation(Document& document, const std::vector<double>& q, const std::string& object) {
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 0) || !std::isfinite(length)) {
         fail(document, object + ".rotation", "is not a quaternion of unit length");
@@ -27,15 +27,7 @@ glm::dmat4 rotation_matrix(Document& document, const std::vector<double>& q, con
     if (std::abs(length - 1) > 1e-3) {
         warn(document, object + ".rotation", "is no unit quaternion; normalised");
     }
-    const double x = q[0] / length;
-    const double y = q[1] / length;
-    const double z = q[2] / length;
-    const double w = q[3] / length;
-    glm::dmat4 matrix(1);
-    matrix[0] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0};
-    matrix[1] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0};
-    matrix[2] = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0};
-    return matrix;
+    return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
 }
 
 void check_size(const Document& document, const std::vector<double>& values, std::size_t size,
@@ -45,33 +37,36 @@ void check_size(const Document& document, const std::vector<double>& values, std
     }
 }
 
-glm::dmat4 local_matrix(Document& document, const tinygltf::Node& node, const std::string& object) {
-    check_size(document, node.matrix, 16, object + ".matrix");
-    check_size(document, node.translation, 3, object + ".translation");
-    check_size(document, node.rotation, 4, object + ".rotation");
-    check_size(document, node.scale, 3, object + ".scale");
-    glm::dmat4 matrix(1);
-    if (!node.matrix.empty()) {
+Node read_node(Document& document, const tinygltf::Node& source, const std::string& object) {
+    check_size(document, source.matrix, 16, object + ".matrix");
+    check_size(document, source.translation, 3, object + ".translation");
+    check_size(document, source.rotation, 4, object + ".rotation");
+    check_size(document, source.scale, 3, object + ".scale");
+    Node node;
+    node.name = source.name;
+    if (!source.matrix.empty()) {
+        glm::dmat4 matrix(1);
         for (int i = 0; i < 16; ++i) {
-            matrix[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
+            matrix[i / 4][i % 4] = source.matrix[static_cast<std::size_t>(i)];
         }
         if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1) {
             warn(document, object + ".matrix", "is not affine; its last row is taken as 0 0 0 1");
             matrix[0][3] = matrix[1][3] = matrix[2][3] = 0;
             matrix[3][3] = 1;
         }
-        return matrix;
+        node.matrix = matrix;
+        return node;
     }
-    if (!node.rotation.empty()) {
-        matrix = rotation_matrix(document, node.rotation, object);
+    if (!source.rotation.empty()) {
+        node.rotation = unit_rotation(document, source.rotation, object);
     }
-    for (int i = 0; i < 3 && !node.scale.empty(); ++i) {
-        matrix[i] *= node.scale[static_cast<std::size_t>(i)];
+    for (int i = 0; i < 3 && !source.scale.empty(); ++i) {
+        node.scale[i] = source.scale[static_cast<std::size_t>(i)];
     }
-    for (int i = 0; i < 3 && !node.translation.empty(); ++i) {
-        matrix[3][i] = node.translation[static_cast<std::size_t>(i)];
+    for (int i = 0; i < 3 && !source.translation.empty(); ++i) {
+        node.translation[i] = source.translation[static_cast<std::size_t>(i)];
     }
-    return matrix;
+    return node;
 }
 
 void check_node(const Document& document, int node, const std::string& object) {
@@ -154,13 +149,16 @@ NodeTree read_nodes(Document& document) {
         }
     }
     NodeTree tree;
+    tree.nodes.resize(parents.size());
     tree.to_world.assign(parents.size(), glm::dmat4(1));
     std::vector<bool> reached(parents.size(), false);
     for (const int node : descend(document, roots)) {
         const auto i = static_cast<std::size_t>(node);
         const std::string object = node_label(document, node);
         reached[i] = true;
-        tree.to_world[i] = local_matrix(document, document.model.nodes[i], object);
+        tree.nodes[i] = read_node(document, document.model.nodes[i], object);
+        tree.nodes[i].parent = parents[i];
+        tree.to_world[i] = node_matrix(tree.nodes[i]);
         if (parents[i] != none) {
             tree.to_world[i] = tree.to_world[static_cast<std::size_t>(parents[i])] * tree.to_world[i];
         }
@@ -179,22 +177,11 @@ NodeTree read_nodes(Document& document) {
 }
 
 glm::dmat4 without_scale(const Document& document, const glm::dmat4& matrix, const std::string& object) {
-    const glm::dvec3 back(matrix[2]);
-    const double back_length = glm::length(back);
-    const glm::dvec3 z = back / back_length;
-    const glm::dvec3 up(matrix[1]);
-    const glm::dvec3 level = up - z * glm::dot(z, up);
-    const double level_length = glm::length(level);
-    if (!(back_length > 0) || !(level_length > 1e-12 * glm::length(up))) {
+    const std::optional<glm::dmat4> rigid = rigid_part(matrix);
+    if (!rigid) {
         fail(document, object, "has a transform without a direction to look along");
     }
-    const glm::dvec3 y = level / level_length;
-    glm::dmat4 rigid(1);
-    rigid[0] = glm::dvec4(glm::cross(y, z), 0);
-    rigid[1] = glm::dvec4(y, 0);
-    rigid[2] = glm::dvec4(z, 0);
-    rigid[3] = glm::dvec4(glm::dvec3(matrix[3]), 1);
-    return rigid;
+    return *rigid;
 }
 
 }  // namespace diptych::gltf

@@ -4,11 +4,13 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "scene/animation.h"
 #include "scene/gltf_document.h"
 
 namespace diptych::gltf {
 
 struct NodeTree {
+    std::vector<Node> nodes;           // every node of the file, at rest; parents are the file's indices
     std::vector<glm::dmat4> to_world;  // for every node of the file
     std::vector<int> visible;          // the nodes of the scene to render, parents before children
 };

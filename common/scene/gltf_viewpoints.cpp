@@ -67,11 +67,11 @@ Camera import_camera(Document& document, int index, int node, const glm::dmat4& 
     return camera;
 }
 
-std::optional<PunctualLight> import_light(Document& document, int node, const glm::dmat4& to_world) {
+int find_light(const Document& document, int node) {
     const tinygltf::Node& holder = document.model.nodes[static_cast<std::size_t>(node)];
     const auto extension = holder.extensions.find("KHR_lights_punctual");
     if (extension == holder.extensions.end()) {
-        return std::nullopt;
+        return none;
     }
     const std::string holder_name = node_label(document, node);
     if (!extension->second.Has("light") || !extension->second.Get("light").IsInt()) {
@@ -81,6 +81,12 @@ std::optional<PunctualLight> import_light(Document& document, int node, const gl
     if (index < 0 || static_cast<std::size_t>(index) >= document.model.lights.size()) {
         fail(document, holder_name + ".KHR_lights_punctual", "there is no lights[" + std::to_string(index) + "]");
     }
+    return index;
+}
+
+PunctualLight import_light(Document& document, int index, int node, const glm::dmat4& to_world) {
+    const tinygltf::Node& holder = document.model.nodes[static_cast<std::size_t>(node)];
+    const std::string holder_name = node_label(document, node);
     const tinygltf::Light& source = document.model.lights[static_cast<std::size_t>(index)];
     const std::string object = label("lights", static_cast<std::size_t>(index), source.name);
     PunctualLight light;

@@ -9,8 +9,11 @@ namespace diptych::gltf {
 /// The camera cameras[index] standing in `node`. Throws Error where its values make no view.
 Camera import_camera(Document& document, int index, int node, const glm::dmat4& to_world);
 
-/// The light that `node` names by KHR_lights_punctual, if any. Candela and lux are taken as W/sr and W/m^2. Throws
-/// Error where the light is not there or of an unknown type.
-std::optional<PunctualLight> import_light(Document& document, int node, const glm::dmat4& to_world);
+/// The light that `node` names by KHR_lights_punctual, or none. Throws Error where that is not there.
+int find_light(const Document& document, int node);
+
+/// The light lights[index] standing in `node`. Candela and lux are taken as W/sr and W/m^2. Throws Error where its type
+/// is unknown.
+PunctualLight import_light(Document& document, int index, int node, const glm::dmat4& to_world);
 
 }  // namespace diptych::gltf

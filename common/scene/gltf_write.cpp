@@ -1,12 +1,12 @@
 #include "scene/gltf_write.h"
 
 #include "error.h"
-#include "scene/gltf_json.h"
+#include "scene/gltf_json_animation.h"
+#include "scene/gltf_write_file.h"
 #include "scene/png_encode.h"
 
-#include <cctype>
+#include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -40,7 +40,8 @@ struct StoredArray {
 struct Document {
     std::vector<char> bytes;
     std::unordered_multimap<std::size_t, StoredArray> arrays;  // by the hash of their bytes
-    JsonList accessors, views, images, samplers, textures, materials, meshes, cameras, lights, nodes;
+    JsonList accessors, views, images, samplers, textures, materials, meshes, cameras, lights, nodes, animations;
+    std::string root_nodes;  // comma-separated indices
     std::set<std::string> extensions;
 };
 
@@ -92,6 +93,19 @@ int add_attribute(Document& document, const std::vector<Vector>& values, bool wi
         accessor["max"] = gltf::json_vector(high);
     }
     return add_array(document, values.data(), values.size() * sizeof(Vector), vertex_target, accessor);
+}
+
+int add_numbers(Document& document, const std::vector<float>& numbers, int components, bool with_bounds) {
+    const std::string type = components == 1 ? "SCALAR" : "VEC" + std::to_string(components);
+    Json accessor = {{"componentType", int(type_float)},
+                     {"count", numbers.size() / std::size_t(components)},
+                     {"type", type}};
+    if (with_bounds) {
+        const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
+        accessor["min"] = Json::array({gltf::decimal(*low)});
+        accessor["max"] = Json::array({gltf::decimal(*high)});
+    }
+    return add_array(document, numbers.data(), numbers.size() * sizeof(float), no_target, accessor);
 }
 
 int add_indices(Document& document, const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
@@ -167,63 +181,75 @@ Json named_node(const std::string& name, const glm::dmat4& to_world) {
     return node;
 }
 
-void add_nodes(Document& document, const Scene& scene) {
+void add_root(Document& document, const Json& node) {
+    const int index = document.nodes.add(node);
+    document.root_nodes += (document.root_nodes.empty() ? "" : ",") + std::to_string(index);
+}
+
+/// What moves, and what carries it: nodes with all that hangs in them, after the still ones.
+struct MovingNodes {
+    std::vector<Json> nodes;
+    const std::string& file;
+
+    /// Where to put `member` of a thing that hangs in `node`.
+    Json& slot(int node, const char* member) {
+        Json& json = nodes.at(std::size_t(node));
+        if (json.contains(member))
+            throw Error(file + ": node '" + json.value("name", "") + "': a node holds one " + member + " at most");
+        return json[member];
+    }
+};
+
+void add_nodes(Document& document, const Scene& scene, const std::string& file) {
+    MovingNodes moving{{}, file};
+    for (const Node& node : scene.nodes)
+        moving.nodes.push_back(gltf::json_node(node));
     for (const Camera& camera : scene.cameras) {
+        const int index = document.cameras.add(gltf::json_camera(camera));
+        if (camera.node != none) {
+            moving.slot(camera.node, "camera") = index;
+            continue;
+        }
         Json node = named_node(camera.name, camera.camera_to_world);
-        node["camera"] = document.cameras.add(gltf::json_camera(camera));
-        document.nodes.add(node);
+        node["camera"] = index;
+        add_root(document, node);
     }
     for (const PunctualLight& light : scene.lights) {
-        Json node = named_node(light.name, light.light_to_world);
-        node["extensions"]["KHR_lights_punctual"]["light"] = document.lights.add(gltf::json_light(light));
-        document.nodes.add(node);
+        const Json reference = {{"KHR_lights_punctual", {{"light", document.lights.add(gltf::json_light(light))}}}};
         document.extensions.insert("KHR_lights_punctual");
+        if (light.node != none) {
+            moving.slot(light.node, "extensions") = reference;
+            continue;
+        }
+        Json node = named_node(light.name, light.light_to_world);
+        node["extensions"] = reference;
+        add_root(document, node);
     }
     for (const Instance& instance : scene.instances) {
+        if (instance.node != none) {
+            moving.slot(instance.node, "mesh") = instance.mesh;
+            continue;
+        }
         Json node = named_node(instance.name, instance.object_to_world);
         if (instance.mesh != none)
             node["mesh"] = instance.mesh;
-        document.nodes.add(node);
+        add_root(document, node);
     }
-}
-
-std::string file_part(std::string name) {
-    for (char& c : name)
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_')
-            c = '-';
-    return name;
-}
-
-/// A relative reference (RFC 3986): everything outside the unreserved characters as %XX.
-std::string encoded_uri(const std::string& name) {
-    std::string out;
-    for (const char c : name) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("-_.~", c) != nullptr) {
-            out += c;
-        } else {
-            constexpr const char* digits = "0123456789ABCDEF";
-            const auto byte = static_cast<unsigned char>(c);
-            out += {'%', digits[byte >> 4U], digits[byte & 15U]};
-        }
+    const int first = document.nodes.size;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].parent != none)
+            moving.nodes.at(std::size_t(scene.nodes[i].parent))["children"].push_back(first + int(i));
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].parent == none)
+            add_root(document, moving.nodes[i]);
+        else
+            document.nodes.add(moving.nodes[i]);
     }
-    return out;
-}
-
-void write_whole(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces) {
-    std::filesystem::path temporary = path;
-    temporary += ".tmp";
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    for (const std::string_view piece : pieces)
-        file.write(piece.data(), std::streamsize(piece.size()));
-    file.close();
-    std::error_code error;
-    if (file)
-        std::filesystem::rename(temporary, path, error);
-    if (!file || error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw Error(path.string() + ": cannot be written" + (error ? ": " + error.message() : ""));
-    }
+    const gltf::AddAccessor add_accessor = [&](const std::vector<float>& numbers, int components, bool with_bounds) {
+        return add_numbers(document, numbers, components, with_bounds);
+    };
+    for (const Animation& animation : scene.animations)
+        document.animations.add(gltf::json_animation(animation, first, add_accessor, document.extensions));
 }
 
 std::string_view view_of(const std::vector<std::uint8_t>& bytes) {
@@ -237,9 +263,9 @@ void add_image(Document& document, const TextureImage& image, const std::filesys
         const int view = add_view(document, png.data(), png.size(), no_target);
         document.images.add({{"name", name}, {"mimeType", "image/png"}, {"bufferView", view}});
     } else {
-        const std::string file = path.stem().string() + "-" + file_part(name) + ".png";
-        write_whole(path.parent_path() / file, {view_of(png)});
-        document.images.add({{"name", name}, {"uri", encoded_uri(file)}});
+        const std::string file = path.stem().string() + "-" + gltf::file_part(name) + ".png";
+        gltf::write_whole(path.parent_path() / file, {view_of(png)});
+        document.images.add({{"name", name}, {"uri", gltf::encoded_uri(file)}});
     }
 }
 
@@ -254,9 +280,6 @@ std::string document_text(const Document& document, const Scene& scene, const st
         root["name"] = scene.name;
     if (scene.environment.kind == Environment::Kind::constant)
         root["extras"]["diptych"]["environment"] = gltf::json_vector(scene.environment.scale);
-    std::string node_list = "[";
-    for (int i = 0; i < document.nodes.size; ++i)
-        node_list += (i == 0 ? "" : ",") + std::to_string(i);
     std::string root_text = root.is_null() ? "{" : root.dump();
     if (!root.is_null())
         root_text.back() = ',';
@@ -265,10 +288,10 @@ std::string document_text(const Document& document, const Scene& scene, const st
     else if (document.nodes.size == 0)
         root_text += "}";
     else
-        root_text += "\"nodes\":" + node_list + "]}";
+        root_text += "\"nodes\":[" + document.root_nodes + "]}";
     out += ",\n\"scene\": 0,\n\"scenes\": [" + root_text + "]";
     const std::pair<const char*, const JsonList*> lists[] = {
-        {"nodes", &document.nodes},         {"cameras", &document.cameras},     {"meshes", &document.meshes},
+        {"animations", &document.animations}, {"nodes", &document.nodes},         {"cameras", &document.cameras},     {"meshes", &document.meshes},
         {"materials", &document.materials}, {"textures", &document.textures},   {"samplers", &document.samplers},
         {"images", &document.images},       {"accessors", &document.accessors}, {"bufferViews", &document.views}};
     for (const auto& [name, list] : lists)
@@ -301,7 +324,7 @@ void write_glb(const std::filesystem::path& path, Document& document, std::strin
     };
     const std::string header = words({0x46546c67, 2, total, json.size(), 0x4e4f534a});
     const std::string bin_header = document.bytes.empty() ? "" : words({document.bytes.size(), 0x004e4942});
-    write_whole(path, {header, json, bin_header, {document.bytes.data(), document.bytes.size()}});
+    gltf::write_whole(path, {header, json, bin_header, {document.bytes.data(), document.bytes.size()}});
 }
 
 }  // namespace
@@ -321,7 +344,7 @@ void write_gltf(const Scene& scene, const std::filesystem::path& path) {
         document.materials.add(gltf::json_material(material, document.extensions));
     for (const Mesh& mesh : scene.meshes)
         add_mesh(document, mesh, path.string());
-    add_nodes(document, scene);
+    add_nodes(document, scene, path.string());
 
     if (binary) {
         write_glb(path, document, document_text(document, scene, ""));
@@ -329,9 +352,9 @@ void write_gltf(const Scene& scene, const std::filesystem::path& path) {
     }
     const std::string bin = path.stem().string() + ".bin";
     if (!document.bytes.empty())
-        write_whole(path.parent_path() / bin, {std::string_view(document.bytes.data(), document.bytes.size())});
-    const std::string json = document_text(document, scene, encoded_uri(bin));
-    write_whole(path, {json});
+        gltf::write_whole(path.parent_path() / bin, {std::string_view(document.bytes.data(), document.bytes.size())});
+    const std::string json = document_text(document, scene, gltf::encoded_uri(bin));
+    gltf::write_whole(path, {json});
 }
 
 }  // namespace diptych

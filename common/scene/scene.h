@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/animation.h"
+
 namespace diptych {
 
 /// What Environment::kind says; stands before the constant `none`, which its enumerator would shadow otherwise.
@@ -49,6 +51,12 @@ struct TextureSlot {
 
 enum class AlphaMode { opaque, mask, blend };
 
+/// The two numbers behind Material::emission, where an animation changes either.
+struct MovingEmission {
+    glm::vec3 factor{0};
+    float strength = 1;
+};
+
 /// glTF 2.0 metallic-roughness, with KHR_materials_ior, _specular, _emissive_strength and _unlit. Colours are linear Rec.709.
 struct Material {
     std::string name;
@@ -70,6 +78,7 @@ struct Material {
     TextureSlot emission_texture;            // sRGB
     TextureSlot specular_texture;            // a; linear
     TextureSlot specular_color_texture;      // rgb sRGB
+    std::optional<MovingEmission> moving_emission{};  // present: counts as emissive at every moment, dark ones included
 };
 
 /// Triangles of one material. Attribute arrays are either empty or as long as `positions`.
@@ -93,6 +102,7 @@ struct Instance {
     std::string name;
     int mesh = none;
     glm::dmat4 object_to_world{1};
+    int node = none;  // that it hangs in; none where nothing moves it
 };
 
 struct Camera {
@@ -104,6 +114,7 @@ struct Camera {
     std::optional<double> aspect;      // width / height the file asks for; the render's own size wins
     double lens_radius = 0;            // metres; 0 is a pinhole
     double focus_distance = 1;         // metres along -Z
+    int node = none;                   // that it hangs in; none where nothing moves it
 };
 
 enum class PunctualType { point, spot, directional };
@@ -116,6 +127,8 @@ struct PunctualLight {
     glm::vec3 intensity{1};  // point and spot: W/sr; directional: W/m^2
     double inner_cone = 0;   // radians
     double outer_cone = 0.7853981633974483;
+    int node = none;                        // that it hangs in; none where nothing moves it
+    std::optional<glm::vec3> moving_color{};  // present where an animation sets the intensity: what it multiplies
 };
 
 /// Light from infinity. Radiance is `scale` times 1 (constant) or times the map, an equirectangular image whose centre looks
@@ -140,6 +153,8 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<PunctualLight> lights;
     Environment environment;
+    std::vector<Node> nodes;  // only those that move or carry what moves, parents first
+    std::vector<Animation> animations;
     std::vector<std::string> warnings;  // one line each, in the order met
 };
 

@@ -1,0 +1,88 @@
+#include <cstring>
+
+#include "error.h"
+#include "pack/pack_parts.h"
+
+namespace diptych {
+namespace {
+
+void require_same(const Scene& scene, std::size_t now, std::size_t then, const char* what) {
+    if (now != then) {
+        throw Error(scene.name + ": " + what + ": " + std::to_string(now) + " where the moment before had " +
+                    std::to_string(then));
+    }
+}
+
+/// Which materials' emission is another now.
+std::vector<bool> move_materials(const Scene& scene, PackedScene& packed) {
+    std::vector<bool> changed(packed.materials.size(), false);
+    for (std::size_t i = 0; i < packed.materials.size(); ++i) {
+        glm::vec3& emission = packed.materials[i].emission;
+        changed[i] = emission != scene.materials[i].emission;
+        emission = scene.materials[i].emission;
+    }
+    return changed;
+}
+
+/// Which instances stand elsewhere now.
+std::vector<bool> move_instances(const Scene& scene, PackedScene& packed) {
+    std::vector<bool> changed(packed.instances.size(), false);
+    for (std::size_t i = 0; i < packed.instances.size(); ++i) {
+        shared::Instance next = packed.instances[i];
+        const bool shown = place_instance(scene.instances[packed.scene_instances[i]], packed.origin, next);
+        changed[i] = std::memcmp(&next, &packed.instances[i], sizeof next) != 0 ||
+                     shown != (packed.instance_shown[i] != 0);
+        packed.instances[i] = next;
+        packed.instance_shown[i] = shown ? 1 : 0;
+    }
+    return changed;
+}
+
+bool uses(const PackedScene& packed, std::size_t instance, const std::vector<bool>& materials) {
+    const MeshRange range = packed.meshes[packed.instance_meshes[instance]];
+    for (std::uint32_t g = range.first_geometry; g < range.first_geometry + range.geometry_count; ++g) {
+        if (materials[packed.geometries[g].material]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool same_lights(const std::vector<shared::PunctualLight>& a, const std::vector<shared::PunctualLight>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(shared::PunctualLight)) == 0);
+}
+
+}  // namespace
+
+void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
+    require_same(scene, scene.materials.size(), packed.materials.size(), "materials");
+    require_same(scene, scene.lights.size(), packed.punctual_lights.size(), "lights");
+    if (!packed.scene_instances.empty() && packed.scene_instances.back() >= scene.instances.size()) {
+        require_same(scene, scene.instances.size(), packed.scene_instances.back() + 1U, "instances");
+    }
+    const std::vector<bool> materials = move_materials(scene, packed);
+    const std::vector<bool> instances = move_instances(scene, packed);
+    bool weigh = false;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        if (packed.instances[i].first_emitter_slot == shared::NONE) {
+            continue;
+        }
+        const bool repainted = uses(packed, i, materials);
+        if (instances[i] || repainted) {
+            place_emitters(packed, i, repainted);
+            weigh = true;
+        }
+    }
+    const std::vector<shared::PunctualLight> before = packed.punctual_lights;
+    place_punctual_lights(scene, packed);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        packed.punctual_lights[i].pmf = before[i].pmf;
+    }
+    if (weigh || !same_lights(before, packed.punctual_lights)) {
+        weigh_lights(packed);
+    }
+    pack_camera(scene, settings, packed);
+}
+
+}  // namespace diptych

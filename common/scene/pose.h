@@ -1,0 +1,24 @@
+// A scene at a moment of its animations.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace diptych {
+
+/// Whether any animation changes it over time.
+bool moves(const Scene& scene);
+
+/// Seconds from 0 to the last key of any animation.
+double duration(const Scene& scene);
+
+/// Puts everything that an animation moves where it is at `seconds`: nodes, and with them instances, cameras and
+/// lights; emissions and intensities, cut at 0 from below. All animations play together; where two set the same
+/// property, the later one wins. Indices and counts stay as they are. What nothing moves stays at rest, and depends on
+/// no earlier pose. Throws Error where a camera or light is left without a direction, or a transform is not finite.
+void pose_scene(Scene& scene, double seconds);
+
+/// `matrix` without scale, shear and mirroring: its -Z is kept exactly, +Y as far as that allows. Nothing where either
+/// axis has length 0.
+std::optional<glm::dmat4> rigid_part(const glm::dmat4& matrix);
+
+}  // namespace diptych
