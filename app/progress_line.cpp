@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "report.h"
 
@@ -30,17 +31,21 @@ std::string progress_text(const Progress& progress, std::uint32_t target_spp) {
     return text;
 }
 
-ProgressLine::ProgressLine(std::uint32_t target_spp)
-    : target_spp_(target_spp), terminal_(isatty(STDERR_FILENO) == 1), next_(terminal_ ? 0 : first_sparse_line) {}
+std::string ProgressLine::text(const Progress& progress) const {
+    return label_ + progress_text(progress, target_spp_);
+}
+
+ProgressLine::ProgressLine(std::uint32_t target_spp, std::string label)
+    : target_spp_(target_spp), label_(std::move(label)), terminal_(isatty(STDERR_FILENO) == 1), next_(terminal_ ? 0 : first_sparse_line) {}
 
 ProgressLine::~ProgressLine() {
     if (latest_.spp == 0) {
         return;
     }
     if (terminal_) {
-        fmt::print(stderr, "\r{}\x1b[K\n", progress_text(latest_, target_spp_));
+        fmt::print(stderr, "\r{}\x1b[K\n", text(latest_));
     } else if (latest_.spp != shown_.spp) {
-        fmt::print(stderr, "{}\n", progress_text(latest_, target_spp_));
+        fmt::print(stderr, "{}\n", text(latest_));
     }
 }
 
@@ -51,7 +56,7 @@ void ProgressLine::show(const Progress& progress) {
     }
     shown_ = progress;
     next_ = terminal_ ? progress.seconds + terminal_interval : 2 * progress.seconds;
-    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", progress_text(progress, target_spp_),
+    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", text(progress),
                terminal_ ? "\x1b[K" : "\n");
     std::fflush(stderr);
 }

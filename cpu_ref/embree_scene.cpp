@@ -1,5 +1,6 @@
 #include "embree_scene.h"
 
+#include <cassert>
 #include <limits>
 
 #include "error.h"
@@ -101,6 +102,9 @@ EmbreeScene::EmbreeScene(const PackedScene& packed)
         meshes_.push_back(build_mesh(packed, mesh));
     }
     root_ = build_root(packed);
+    if (packed.keeps_previous) {
+        previous_ = build_root(packed);
+    }
     check("build");
 }
 
@@ -140,20 +144,61 @@ EmbreeScene::ScenePtr EmbreeScene::build_mesh(const PackedScene& packed, std::si
     return scene;
 }
 
-EmbreeScene::ScenePtr EmbreeScene::build_root(const PackedScene& packed) const {
-    ScenePtr root(rtcNewScene(device_.get()));
-    rtcSetSceneFlags(root.get(), RTC_SCENE_FLAG_ROBUST);
+EmbreeScene::Placement EmbreeScene::placement(const PackedScene& packed, std::size_t instance) {
+    const shared::Instance& i = packed.instances[instance];
+    // Of what does not show Embree still takes the inverse.
+    return is_shown(packed, instance)
+               ? Placement{{i.row_0, i.row_1, i.row_2}, true}
+               : Placement{{glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0)}, false};
+}
+
+void EmbreeScene::place(RTCGeometry geometry, const Placement& placement) {
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, placement.rows.data());
+    if (placement.shown) {
+        rtcEnableGeometry(geometry);
+    } else {
+        rtcDisableGeometry(geometry);
+    }
+    rtcCommitGeometry(geometry);
+}
+
+EmbreeScene::Root EmbreeScene::build_root(const PackedScene& packed) const {
+    Root root;
+    root.scene.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(root.scene.get(), RTC_SCENE_FLAG_ROBUST);
     for (std::size_t i = 0; i < packed.instances.size(); ++i) {
-        const shared::Instance& instance = packed.instances[i];
         RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, meshes_[packed.instance_meshes[i]].get());
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, &instance.row_0);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(root.get(), geometry, static_cast<unsigned>(i));
+        root.placements.push_back(placement(packed, i));
+        place(geometry, root.placements.back());
+        rtcAttachGeometryByID(root.scene.get(), geometry, static_cast<unsigned>(i));
         rtcReleaseGeometry(geometry);
     }
-    rtcCommitScene(root.get());
+    rtcCommitScene(root.scene.get());
     return root;
+}
+
+void EmbreeScene::move_to(const PackedScene& moment) {
+    if (moment.instances.size() != root_.placements.size()) {
+        throw Error("Embree: " + std::to_string(moment.instances.size()) + " instances where the moment before had " +
+                    std::to_string(root_.placements.size()));
+    }
+    if (moment.keeps_previous) {
+        std::swap(root_, previous_);
+    }
+    bool moved = false;
+    for (std::size_t i = 0; i < moment.instances.size(); ++i) {
+        const Placement next = placement(moment, i);
+        if (next != root_.placements[i]) {
+            root_.placements[i] = next;
+            place(rtcGetGeometry(root_.scene.get(), static_cast<unsigned>(i)), next);
+            moved = true;
+        }
+    }
+    if (moved) {
+        rtcCommitScene(root_.scene.get());
+    }
+    check("move");
 }
 
 EmbreeHit EmbreeScene::closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
@@ -166,15 +211,26 @@ EmbreeHit EmbreeScene::closest(const glm::vec3& origin, const glm::vec3& directi
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
     arguments.context = &context.base;
-    rtcIntersect1(root_.get(), &query, &arguments);
+    rtcIntersect1(root_.scene.get(), &query, &arguments);
 #else
-    rtcIntersect1(root_.get(), &context.base, &query);
+    rtcIntersect1(root_.scene.get(), &context.base, &query);
 #endif
     return {query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
 }
 
 bool EmbreeScene::any(const glm::vec3& origin, const glm::vec3& direction, float t_max,
                       std::uint32_t alpha_key) const {
+    return occluded(root_.scene.get(), origin, direction, t_max, alpha_key);
+}
+
+bool EmbreeScene::any_previous(const glm::vec3& origin, const glm::vec3& direction, float t_max,
+                               std::uint32_t alpha_key) const {
+    assert(previous_.scene);
+    return occluded(previous_.scene.get(), origin, direction, t_max, alpha_key);
+}
+
+bool EmbreeScene::occluded(RTCScene root, const glm::vec3& origin, const glm::vec3& direction, float t_max,
+                           std::uint32_t alpha_key) const {
     RayContext context = make_context(alpha_key);
     RTCRay ray;
     set_ray(ray, origin, direction, t_max);
@@ -182,9 +238,9 @@ bool EmbreeScene::any(const glm::vec3& origin, const glm::vec3& direction, float
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
     arguments.context = &context.base;
-    rtcOccluded1(root_.get(), &ray, &arguments);
+    rtcOccluded1(root, &ray, &arguments);
 #else
-    rtcOccluded1(root_.get(), &context.base, &ray);
+    rtcOccluded1(root, &context.base, &ray);
 #endif
     return ray.tfar < 0;
 }

@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -41,6 +42,13 @@ public:
     /// Whether anything lies in (0, t_max).
     bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const;
 
+    /// The same in the moment before; only where PackedScene::keeps_previous.
+    bool any_previous(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const;
+
+    /// Places the instances as another moment has them. Meshes stay; the root is rebuilt where any instance moved. Throws Error where
+    /// there are more or fewer of them.
+    void move_to(const PackedScene& moment);
+
     /// Bytes that Embree holds for its structures.
     std::uint64_t bytes() const { return static_cast<std::uint64_t>(bytes_->load()); }
 
@@ -54,14 +62,30 @@ private:
     using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
     using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
+    /// Where an instance stands in a root.
+    struct Placement {
+        std::array<glm::vec4, 3> rows;
+        bool shown;
+        bool operator==(const Placement&) const = default;
+    };
+    struct Root {
+        ScenePtr scene;
+        std::vector<Placement> placements;
+    };
+
+    static Placement placement(const PackedScene& packed, std::size_t instance);
+    static void place(RTCGeometry geometry, const Placement& placement);
     ScenePtr build_mesh(const PackedScene& packed, std::size_t mesh) const;
-    ScenePtr build_root(const PackedScene& packed) const;
+    Root build_root(const PackedScene& packed) const;
+    bool occluded(RTCScene root, const glm::vec3& origin, const glm::vec3& direction, float t_max,
+                  std::uint32_t alpha_key) const;
     void check(const char* what) const;
 
     std::unique_ptr<std::atomic<std::int64_t>> bytes_;  // Embree's monitor counts here
     DevicePtr device_;
     std::vector<ScenePtr> meshes_;
-    ScenePtr root_;
+    Root root_;
+    Root previous_;
 };
 
 /// Embree's version as text, such as "3.13.5".

@@ -19,9 +19,14 @@ struct BottomLevels {
     std::uint64_t built_bytes = 0;  // before compaction
 };
 
+/// Over the instances. What builds it stays once it has been built a second time.
 struct TopLevel {
     Buffer storage;
     vk::raii::AccelerationStructureKHR structure = nullptr;
+    std::uint64_t scratch_bytes = 0;
+    Buffer scratch;
+    Buffer instances;
+    std::vector<vk::AccelerationStructureInstanceKHR> described;  // as it was built
 };
 
 /// How much memory one batch of builds may take; a mesh that needs more is a batch of its own.
@@ -35,5 +40,10 @@ BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, cons
                                  const BuildLimits& limits = {});
 
 TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const BottomLevels& bottom);
+
+/// Builds it anew, in its own memory, where any instance stands elsewhere. Not refitted: a refitted structure's quality depends on all
+/// moments before, a built one's on none, and a frame repeated alone must cost and hit what it did in its sequence. Throws Error where
+/// the number of instances is another. Nothing that reads it may be in flight.
+void move_top_level(const Gpu& gpu, const PackedScene& moment, const BottomLevels& bottom, TopLevel& top);
 
 }  // namespace diptych

@@ -51,6 +51,17 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
     return made;
 }
 
+void replace_structure(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure) {
+    vk::WriteDescriptorSetAccelerationStructureKHR structure_write;
+    structure_write.setAccelerationStructures(structure);
+    const vk::WriteDescriptorSet write{.pNext = &structure_write,
+                                       .dstSet = *bindings.set,
+                                       .dstBinding = 0,
+                                       .descriptorCount = 1,
+                                       .descriptorType = vk::DescriptorType::eAccelerationStructureKHR};
+    gpu.device.updateDescriptorSets(write, {});
+}
+
 void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants) {
     Uploader uploader(gpu, sizeof(constants));
     uploader.upload(bindings.constants, std::as_bytes(std::span(&constants, 1)));

@@ -21,4 +21,7 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
 /// Puts other constants in the place of those it was made with. Nothing that reads them may be in flight.
 void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants);
 
+/// Likewise another top-level structure.
+void replace_structure(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure);
+
 }  // namespace diptych

@@ -1,5 +1,6 @@
 #include "path_renderer.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 
@@ -45,11 +46,14 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
     in_context("building acceleration structures", [&] {
         bottom_ = build_bottom_levels(*gpu_, packed, scene_);
         top_ = build_top_level(*gpu_, packed, bottom_);
+        if (packed.keeps_previous) {
+            previous_top_ = build_top_level(*gpu_, packed, bottom_);
+        }
     });
     const auto size = glm::ivec2(constants_.size);
     in_context("making the film", [&] { film_ = make_film(*gpu_, size.x, size.y, features_); });
     costs_.build_seconds = seconds_since(start);
-    costs_.acceleration_bytes = bottom_.bytes + top_.storage.size;
+    costs_.acceleration_bytes = bottom_.bytes + top_.storage.size + previous_top_.storage.size;
     costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + film_bytes(film_);
 
     const auto compile_start = std::chrono::steady_clock::now();
@@ -111,6 +115,27 @@ void PathRenderer::restart(std::uint32_t seed) {
         constants_.seed = seed;
         replace_constants(*gpu_, bindings_, constants_);
         clear_film(*gpu_, film_);
+    });
+}
+
+void PathRenderer::move_to(const PackedScene& moment) {
+    in_context("moving the scene", [&] {
+        if (!mover_) {
+            mover_ = std::make_unique<Uploader>(
+                *gpu_, std::clamp<std::uint64_t>(moving_bytes(moment), 4096, std::uint64_t{64} << 20U));
+        }
+        upload_moment(*mover_, moment, scene_);
+        if (moment.keeps_previous) {
+            std::swap(top_, previous_top_);
+        }
+        move_top_level(*gpu_, moment, bottom_, top_);
+        if (moment.keeps_previous) {
+            replace_structure(*gpu_, bindings_, *top_.structure);
+        }
+        const std::uint32_t seed = constants_.seed;
+        constants_ = moment.constants;
+        constants_.seed = seed;
+        replace_constants(*gpu_, bindings_, constants_);
     });
 }
 

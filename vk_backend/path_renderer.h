@@ -31,6 +31,7 @@ public:
     RendererCosts costs() const override { return costs_; }
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override;
     void restart(std::uint32_t seed) override;
+    void move_to(const PackedScene& moment) override;
     double device_seconds() const override { return queue_->seconds(); }
     Film film() const override;
     TraversalBench bench_traversal(std::uint32_t samples) override;
@@ -49,6 +50,8 @@ private:
     SceneMemory scene_;
     BottomLevels bottom_;
     TopLevel top_;
+    TopLevel previous_top_;            // of the moment before, where PackedScene::keeps_previous
+    std::unique_ptr<Uploader> mover_;  // made at the first move
     FilmMemory film_;
     PipelineLayout layout_;
     TracePipeline path_;

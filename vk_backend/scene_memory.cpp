@@ -1,6 +1,6 @@
 #include "scene_memory.h"
 
-#include "upload.h"
+#include "error.h"
 
 namespace diptych {
 
@@ -17,6 +17,28 @@ SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed) {
 #undef UPLOAD_BUFFER
     uploader.finish();
     return scene;
+}
+
+void upload_moment(Uploader& uploader, const PackedScene& moment, const SceneMemory& scene) {
+    const auto overwrite = [&](const Buffer& buffer, const char* name, std::span<const std::byte> bytes) {
+        if (buffer.size != bytes.size()) {
+            throw Error(std::string("scene buffer ") + name + ": " + std::to_string(bytes.size()) +
+                        " bytes where the moment before had " + std::to_string(buffer.size));
+        }
+        uploader.upload(buffer, bytes);
+    };
+#define UPLOAD_BUFFER(Type, name) overwrite(scene.name, #name, std::as_bytes(std::span(moment.name)));
+    MOVING_BUFFERS(UPLOAD_BUFFER)
+#undef UPLOAD_BUFFER
+    uploader.finish();
+}
+
+std::uint64_t moving_bytes(const PackedScene& moment) {
+    std::uint64_t bytes = 0;
+#define ADD_BYTES(Type, name) bytes += moment.name.size() * sizeof(moment.name[0]);
+    MOVING_BUFFERS(ADD_BYTES)
+#undef ADD_BYTES
+    return bytes;
 }
 
 SceneAddresses scene_addresses(const SceneMemory& scene) {

@@ -4,6 +4,7 @@
 #include "buffer.h"
 #include "pack/packed_scene.h"
 #include "scene_addresses.h"
+#include "upload.h"
 
 namespace diptych {
 
@@ -15,6 +16,13 @@ struct SceneMemory {
 
 /// Uploads every array that is not empty.
 SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed);
+
+/// Overwrites what moves (MOVING_BUFFERS) with that of another moment. Throws Error where a count is another. Nothing that reads it may
+/// be in flight.
+void upload_moment(Uploader& uploader, const PackedScene& moment, const SceneMemory& scene);
+
+/// Bytes that upload_moment copies.
+std::uint64_t moving_bytes(const PackedScene& moment);
 
 /// The addresses of the scene's part of the block.
 SceneAddresses scene_addresses(const SceneMemory& scene);

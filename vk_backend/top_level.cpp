@@ -1,3 +1,6 @@
+#include <cstring>
+#include <string>
+
 #include "acceleration.h"
 #include "commands.h"
 #include "upload.h"
@@ -14,13 +17,14 @@ std::vector<vk::AccelerationStructureInstanceKHR> describe_instances(const Packe
     for (std::size_t i = 0; i < packed.instances.size(); ++i) {
         const shared::Instance& instance = packed.instances[i];
         vk::AccelerationStructureInstanceKHR target{};  // its bit fields have no initialisers of their own
+        const bool shown = is_shown(packed, i);
         for (std::size_t column = 0; column < 4; ++column) {
             const auto c = static_cast<glm::length_t>(column);
-            target.transform.matrix[0][column] = instance.row_0[c];
-            target.transform.matrix[1][column] = instance.row_1[c];
-            target.transform.matrix[2][column] = instance.row_2[c];
+            target.transform.matrix[0][column] = shown ? instance.row_0[c] : column == 0 ? 1.0F : 0.0F;
+            target.transform.matrix[1][column] = shown ? instance.row_1[c] : column == 1 ? 1.0F : 0.0F;
+            target.transform.matrix[2][column] = shown ? instance.row_2[c] : column == 2 ? 1.0F : 0.0F;
         }
-        target.mask = 0xff;
+        target.mask = shown ? 0xff : 0;
         target.setFlags(vk::GeometryInstanceFlagBitsKHR::eTriangleFacingCullDisable);
         target.accelerationStructureReference = bottom.addresses[packed.instance_meshes[i]];
         described.push_back(target);
@@ -28,51 +32,95 @@ std::vector<vk::AccelerationStructureInstanceKHR> describe_instances(const Packe
     return described;
 }
 
-}  // namespace
+struct TopLevelBuild {
+    vk::AccelerationStructureGeometryKHR geometry;
+    vk::AccelerationStructureBuildGeometryInfoKHR info;
+};
 
-TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const BottomLevels& bottom) {
-    const std::vector<vk::AccelerationStructureInstanceKHR> described = describe_instances(packed, bottom);
+TopLevelBuild describe_build(vk::DeviceAddress instances) {
+    vk::AccelerationStructureGeometryInstancesDataKHR data;
+    data.data.deviceAddress = instances;
+    TopLevelBuild build;
+    build.geometry.geometryType = vk::GeometryTypeKHR::eInstances;
+    build.geometry.geometry.instances = data;
+    build.info.type = vk::AccelerationStructureTypeKHR::eTopLevel;
+    build.info.flags = vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace;
+    build.info.mode = vk::BuildAccelerationStructureModeKHR::eBuild;
+    return build;
+}
+
+Buffer upload_instances(const Gpu& gpu, const std::vector<vk::AccelerationStructureInstanceKHR>& described) {
     Uploader uploader(gpu, std::uint64_t{8} << 20U);
     // Instances lie at multiples of 16 bytes; with none, the address still has to be one.
     const std::vector<vk::AccelerationStructureInstanceKHR> unused(1);
-    const Buffer instances = upload_array(
+    Buffer instances = upload_array(
         gpu, uploader, "instances of acceleration structures", std::span(described.empty() ? unused : described),
         Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress);
     uploader.finish();
+    return instances;
+}
 
-    vk::AccelerationStructureGeometryInstancesDataKHR data;
-    data.data.deviceAddress = instances.address;
-    vk::AccelerationStructureGeometryKHR geometry;
-    geometry.geometryType = vk::GeometryTypeKHR::eInstances;
-    geometry.geometry.instances = data;
-    vk::AccelerationStructureBuildGeometryInfoKHR info;
-    info.type = vk::AccelerationStructureTypeKHR::eTopLevel;
-    info.flags = vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace;
-    info.mode = vk::BuildAccelerationStructureModeKHR::eBuild;
-    info.setGeometries(geometry);
-    const auto count = static_cast<std::uint32_t>(described.size());
-    const vk::AccelerationStructureBuildSizesInfoKHR sizes =
-        gpu.device.getAccelerationStructureBuildSizesKHR(vk::AccelerationStructureBuildTypeKHR::eDevice, info, count);
+Buffer make_scratch(const Gpu& gpu, std::uint64_t bytes) {
+    return make_buffer(gpu, "building acceleration structures", bytes + gpu.scratch_alignment,
+                       Usage::eStorageBuffer | Usage::eShaderDeviceAddress, MemoryKind::device);
+}
 
+void build(const Gpu& gpu, const TopLevel& top, const Buffer& instances, const Buffer& scratch) {
+    TopLevelBuild build = describe_build(instances.address);
+    build.info.setGeometries(build.geometry);
+    build.info.dstAccelerationStructure = *top.structure;
+    build.info.scratchData.deviceAddress = align_up(scratch.address, gpu.scratch_alignment);
+    const vk::AccelerationStructureBuildRangeInfoKHR range{
+        .primitiveCount = static_cast<std::uint32_t>(top.described.size())};
+    const vk::AccelerationStructureBuildRangeInfoKHR* ranges = &range;
+    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
+        full_barrier(commands);
+        commands.buildAccelerationStructuresKHR(build.info, ranges);
+        full_barrier(commands);
+    });
+}
+
+}  // namespace
+
+TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const BottomLevels& bottom) {
     TopLevel top;
+    top.described = describe_instances(packed, bottom);
+    const Buffer instances = upload_instances(gpu, top.described);
+    TopLevelBuild asked = describe_build(instances.address);
+    asked.info.setGeometries(asked.geometry);
+    const vk::AccelerationStructureBuildSizesInfoKHR sizes = gpu.device.getAccelerationStructureBuildSizesKHR(
+        vk::AccelerationStructureBuildTypeKHR::eDevice, asked.info, static_cast<std::uint32_t>(top.described.size()));
+    top.scratch_bytes = sizes.buildScratchSize;
     top.storage =
         make_buffer(gpu, "the instances' acceleration structure", sizes.accelerationStructureSize,
                     Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress, MemoryKind::device);
     top.structure = gpu.device.createAccelerationStructureKHR({.buffer = *top.storage.handle,
                                                                .size = sizes.accelerationStructureSize,
                                                                .type = vk::AccelerationStructureTypeKHR::eTopLevel});
-    const Buffer scratch =
-        make_buffer(gpu, "building acceleration structures", sizes.buildScratchSize + gpu.scratch_alignment,
-                    Usage::eStorageBuffer | Usage::eShaderDeviceAddress, MemoryKind::device);
-    info.dstAccelerationStructure = *top.structure;
-    info.scratchData.deviceAddress = align_up(scratch.address, gpu.scratch_alignment);
-    const vk::AccelerationStructureBuildRangeInfoKHR range{.primitiveCount = count};
-    const vk::AccelerationStructureBuildRangeInfoKHR* ranges = &range;
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        commands.buildAccelerationStructuresKHR(info, ranges);
-        full_barrier(commands);
-    });
+    build(gpu, top, instances, make_scratch(gpu, top.scratch_bytes));
     return top;
+}
+
+void move_top_level(const Gpu& gpu, const PackedScene& moment, const BottomLevels& bottom, TopLevel& top) {
+    std::vector<vk::AccelerationStructureInstanceKHR> described = describe_instances(moment, bottom);
+    if (described.size() != top.described.size()) {
+        throw Error("Vulkan device " + gpu.name + ": " + std::to_string(described.size()) +
+                    " instances where the moment before had " + std::to_string(top.described.size()));
+    }
+    const std::span<const std::byte> next = std::as_bytes(std::span(described));
+    if (described.empty() || std::memcmp(next.data(), top.described.data(), next.size()) == 0) {
+        return;
+    }
+    top.described = std::move(described);
+    if (top.instances.size == 0) {
+        top.instances = upload_instances(gpu, top.described);
+        top.scratch = make_scratch(gpu, top.scratch_bytes);
+    } else {
+        Uploader uploader(gpu, next.size());
+        uploader.upload(top.instances, std::as_bytes(std::span(top.described)));
+        uploader.finish();
+    }
+    build(gpu, top, top.instances, top.scratch);
 }
 
 }  // namespace diptych

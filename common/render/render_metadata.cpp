@@ -82,6 +82,14 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
     if (request.focus_distance) {
         add("--focus", *request.focus_distance);
     }
+    if (request.frames > 0) {
+        add("--frames", request.frames);
+        add("--fps", request.fps);
+        add("--start", request.start);
+    }
+    if (request.orbit != 0) {
+        add("--orbit", request.orbit);
+    }
     add("--exposure", request.exposure);
     add("--tonemap", request.tonemap);
     command += settings.standard_error ? " --layers" : " --no-layers";
@@ -121,6 +129,12 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("environment_rotation", request.environment_rotation);
     add("lens_radius", request.lens_radius ? fmt::format("{}", *request.lens_radius) : "");
     add("focus_distance", request.focus_distance ? fmt::format("{}", *request.focus_distance) : "");
+    if (request.frames > 0) {
+        add("frame", request.frame);
+        add("time", request.start);
+        add("fps", request.fps);
+        add("orbit", request.orbit);
+    }
     add("exposure", request.exposure);
     add("tonemap", request.tonemap);
     add("interrupted", yes_or_no(outcome.interrupted));

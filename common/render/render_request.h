@@ -29,6 +29,11 @@ struct RenderRequest {
     bool validation = false;
     std::uint32_t spp = 64;  // 0 where `seconds` is the limit
     double seconds = 0;
+    std::uint32_t frames = 0;  // of a sequence; 0 is one picture of the scene at rest
+    std::uint32_t frame = 0;   // which of them this is, for what a picture says of itself
+    double fps = 24;
+    double start = 0;  // seconds, of the first frame
+    double orbit = 0;  // degrees a frame that the camera turns: degrees * fps * time in all
     RenderSettings settings;
 };
 

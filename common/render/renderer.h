@@ -9,6 +9,8 @@
 
 namespace diptych {
 
+struct PackedScene;
+
 /// Seconds spent before the first sample, and bytes held.
 struct RendererCosts {
     double build_seconds = 0;    // acceleration structures and uploads
@@ -44,6 +46,11 @@ public:
     /// Empties the film and goes on with another seed: what follows has the bits of a new renderer with that seed, without building
     /// anything anew. Time and costs go on counting.
     virtual void restart(std::uint32_t seed) = 0;
+
+    /// Goes on with another moment of its scene: `moment` is what it was made from, after pack_moment, or a copy with the same meshes.
+    /// Takes only what moves. Film and seed stay; restart begins a new picture. The CPU panel refers to `moment` from then on, and to
+    /// the meshes of the first. Throws Error where the counts differ.
+    virtual void move_to(const PackedScene& moment) = 0;
 
     /// Seconds the device itself worked on `render` calls so far: timestamps on a GPU, wall clock on the CPU.
     virtual double device_seconds() const = 0;

@@ -29,7 +29,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 class CpuRenderer final : public Renderer {
 public:
     CpuRenderer(const PackedScene& packed, int threads)
-        : packed_(packed),
+        : packed_(&packed),
           constants_(packed.constants),
           arena_(threads > 0 ? threads : tbb::task_arena::automatic),
           start_(Clock::now()),
@@ -47,7 +47,7 @@ public:
         const std::uint64_t film = film_.pixels.size() * sizeof(shared::FilmPixel) +
                                    film_.moments.size() * sizeof(shared::FilmMoments) +
                                    film_.first_hits.size() * sizeof(shared::FilmFirstHit);
-        return {build_seconds_, 0, buffer_bytes(packed_) + scene_->bytes() + film, scene_->bytes()};
+        return {build_seconds_, 0, buffer_bytes(*packed_) + scene_->bytes() + film, scene_->bytes()};
     }
 
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
@@ -63,6 +63,14 @@ public:
         clear_film();
     }
 
+    void move_to(const PackedScene& moment) override {
+        arena_.execute([&] { scene_->move_to(moment); });
+        const std::uint32_t seed = constants_.seed;
+        packed_ = &moment;
+        constants_ = moment.constants;
+        constants_.seed = seed;
+    }
+
     double device_seconds() const override { return seconds_; }
     Film film() const override { return film_; }
     TraversalBench bench_traversal(std::uint32_t samples) override;
@@ -71,8 +79,8 @@ private:
     void clear_film() {
         const std::size_t pixels = static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height);
         film_.pixels.assign(pixels, {});
-        film_.moments.assign((packed_.features & shared::FEATURE_STANDARD_ERROR) != 0 ? pixels : 0, {});
-        film_.first_hits.assign((packed_.features & shared::FEATURE_FIRST_HIT_LAYERS) != 0 ? pixels : 0, {});
+        film_.moments.assign((packed_->features & shared::FEATURE_STANDARD_ERROR) != 0 ? pixels : 0, {});
+        film_.first_hits.assign((packed_->features & shared::FEATURE_FIRST_HIT_LAYERS) != 0 ? pixels : 0, {});
     }
 
     template <class Body>
@@ -109,7 +117,7 @@ private:
     }
 
     void accumulate(Film& film, std::uint32_t first, std::uint32_t count, const std::atomic<bool>* cancel) const {
-        const bool plain = (packed_.features & ~plain_features) == 0;
+        const bool plain = (packed_->features & ~plain_features) == 0;
         for_tiles([&](int x, int y) {
             if (cancel != nullptr && *cancel) {
                 return;
@@ -117,7 +125,7 @@ private:
             if (plain) {
                 accumulate_plain_tile(film, x, y, first, count);
             } else {
-                shared::CpuKernel<PlainTracer, ~0U> kernel{packed_, constants_, {*scene_}};
+                shared::CpuKernel<PlainTracer, ~0U> kernel{*packed_, constants_, {*scene_}};
                 accumulate_tile(kernel, film, x, y, first, count);
             }
         });
@@ -126,11 +134,11 @@ private:
     /// One function with everything inlined, so that what a path carries along stays in registers.
     [[gnu::flatten]] void accumulate_plain_tile(Film& film, int tile_x, int tile_y, std::uint32_t first,
                                                 std::uint32_t count) const {
-        shared::CpuKernel<PlainTracer, plain_features> kernel{packed_, constants_, {*scene_}};
+        shared::CpuKernel<PlainTracer, plain_features> kernel{*packed_, constants_, {*scene_}};
         accumulate_tile(kernel, film, tile_x, tile_y, first, count);
     }
 
-    const PackedScene& packed_;
+    const PackedScene* packed_;
     shared::RenderConstants constants_;
     mutable tbb::task_arena arena_;
     Clock::time_point start_;
@@ -150,7 +158,7 @@ TraversalBench CpuRenderer::bench_traversal(std::uint32_t samples) {
     };
     Film scratch = film_;
     for_tiles([&](int x, int y) {
-        shared::CpuKernel<RecordingTracer, ~0U> kernel{packed_, constants_, {*scene_, of_tile(x, y)}};
+        shared::CpuKernel<RecordingTracer, ~0U> kernel{*packed_, constants_, {*scene_, of_tile(x, y)}};
         accumulate_tile(kernel, scratch, x, y, 0, samples);
     });
 

@@ -72,11 +72,13 @@ OracleSettings oracle_settings(const RenderSettings& settings, oracle::Mode mode
 class OracleRenderer final : public Renderer {
 public:
     OracleRenderer(const Scene& scene, const RenderSettings& settings, oracle::Mode mode, int threads)
-        : settings_(settings), threads_(threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency())),
-          oracle_(scene, oracle_settings(settings, mode), threads) {
+        : scene_(scene), settings_(settings), oracle_settings_(oracle_settings(settings, mode)),
+          wanted_threads_(threads),
+          threads_(threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency())) {
+        begin();
         costs_.build_seconds = seconds_since(start_);
-        costs_.bytes = oracle_.bytes();
-        costs_.acceleration_bytes = oracle_.acceleration_bytes();
+        costs_.bytes = oracle_->bytes();
+        costs_.acceleration_bytes = oracle_->acceleration_bytes();
     }
 
     std::string backend() const override { return "oracle"; }
@@ -85,9 +87,16 @@ public:
 
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
         const Clock::time_point start = Clock::now();
-        oracle_.render(first, count, cancel);
+        oracle_->render(first, count, cancel);
         seconds_ += seconds_since(start);
     }
+
+    void restart(std::uint32_t seed) override {
+        oracle_settings_.seed = seed;
+        begin();
+    }
+
+    void move_to(const PackedScene&) override { begin(); }
 
     double device_seconds() const override { return seconds_; }
 
@@ -95,7 +104,7 @@ public:
         Film film;
         film.width = settings_.width;
         film.height = settings_.height;
-        for (const OraclePixel& pixel : oracle_.image().pixels) {
+        for (const OraclePixel& pixel : oracle_->image().pixels) {
             film.pixels.push_back(to_film(pixel));
             if (settings_.standard_error) {
                 film.moments.push_back(to_moments(pixel));
@@ -112,10 +121,15 @@ public:
     }
 
 private:
+    void begin() { oracle_ = std::make_unique<Oracle>(scene_, oracle_settings_, wanted_threads_); }
+
     Clock::time_point start_ = Clock::now();
+    const Scene& scene_;
     RenderSettings settings_;
+    OracleSettings oracle_settings_;
+    int wanted_threads_;
     int threads_;
-    Oracle oracle_;
+    std::unique_ptr<Oracle> oracle_;
     RendererCosts costs_;
     double seconds_ = 0;
 };

@@ -26,6 +26,7 @@ public:
     TraversalBench bench_traversal(std::uint32_t) override { return {}; }
 
     void restart(std::uint32_t) override {}
+    void move_to(const PackedScene&) override {}
 
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
         firsts.push_back(first);

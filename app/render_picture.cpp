@@ -1,0 +1,128 @@
+#include "render_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "image/image_file.h"
+#include "image/tonemap_image.h"
+#include "pack/features.h"
+#include "progress_line.h"
+#include "render/film_statistics.h"
+#include "render/progressive.h"
+#include "render/render_metadata.h"
+#include "render/settings_names.h"
+#include "report.h"
+
+namespace diptych::app {
+
+namespace {
+
+void save(const RenderRequest& request, LayeredImage layers, const RenderOutcome& outcome) {
+    switch (image_format(request.output)) {
+    case ImageFormat::Exr:
+        layers.metadata = render_metadata(request, outcome);
+        write_exr(request.output, layers);
+        break;
+    case ImageFormat::Png:
+        write_png(request.output,
+                  tonemapped(layers.color, tonemap_from_name(request.tonemap), static_cast<float>(request.exposure)));
+        break;
+    case ImageFormat::Hdr:
+        write_hdr(request.output, layers.color);
+        break;
+    }
+}
+
+/// Some pixels have more samples than others.
+bool is_uneven(const Film& film) {
+    const auto count = [](const shared::FilmPixel& pixel) { return pixel.samples + pixel.nonfinite; };
+    return std::any_of(film.pixels.begin(), film.pixels.end(),
+                       [&](const shared::FilmPixel& pixel) { return count(pixel) != count(film.pixels.front()); });
+}
+
+nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome& outcome, const Renderer& renderer,
+                               const FilmTotals& totals, const std::optional<double>& relmse, std::uint32_t features,
+                               double device_seconds) {
+    const RendererCosts costs = renderer.costs();
+    const double seconds = std::max(outcome.seconds, 1e-12);
+    nlohmann::ordered_json json;
+    json["backend"] = renderer.backend();
+    json["device"] = outcome.device;
+    if (request.backend == "oracle") {
+        json["oracle_mode"] = request.oracle_mode;
+    } else {
+        json["integrator"] = name_of(request.settings.integrator);
+    }
+    json["width"] = request.settings.width;
+    json["height"] = request.settings.height;
+    json["spp"] = outcome.spp;
+    json["seconds"] = outcome.seconds;
+    json["rays"] = outcome.rays;
+    json["nonfinite"] = outcome.nonfinite;
+    json["output"] = request.output;
+    json["interrupted"] = outcome.interrupted;
+    json["build_seconds"] = costs.build_seconds;
+    json["compile_seconds"] = costs.compile_seconds;
+    json["device_seconds"] = device_seconds;
+    json["bytes"] = costs.bytes;
+    json["features"] = feature_names(features);
+    json["samples_per_second"] = static_cast<double>(totals.samples + totals.nonfinite) / seconds;
+    json["rays_per_second"] = static_cast<double>(outcome.rays) / seconds;
+    json["estimated_relmse"] = relmse ? nlohmann::ordered_json(*relmse) : nlohmann::ordered_json();
+    if (request.frames > 0) {
+        json["frame"] = request.frame;
+        json["time"] = request.start;
+    }
+    json["command"] = repeat_command(request, outcome.spp);
+    return json;
+}
+
+}  // namespace
+
+Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
+                       const std::atomic<bool>& cancel, const std::string& label, bool quiet) {
+    const double device_seconds = renderer.device_seconds();
+    ProgressiveResult result;
+    {
+        ProgressLine line(request.spp, label);
+        ProgressiveTarget target;
+        target.spp = request.spp;
+        target.seconds = request.seconds;
+        ProgressiveHooks hooks;
+        hooks.progress = [&](const Progress& progress) { line.show(progress); };
+        result = render_progressively(renderer, target, cancel, hooks);
+    }
+    const Film film = renderer.film();
+    const FilmTotals totals = film_totals(film);
+    RenderOutcome outcome;
+    outcome.program = program_version();
+    outcome.device = renderer.device();
+    outcome.spp = result.spp;
+    outcome.interrupted = result.interrupted;
+    outcome.uneven = is_uneven(film);
+    outcome.seconds = result.seconds;
+    outcome.rays = totals.rays;
+    outcome.nonfinite = totals.nonfinite;
+    Picture picture;
+    picture.interrupted = result.interrupted;
+    if (totals.samples + totals.nonfinite == 0) {
+        report_error(fmt::format("{}: interrupted before the first sample; nothing to save", request.output));
+        return picture;
+    }
+    save(request, develop(film), outcome);
+    picture.saved = true;
+    if (totals.nonfinite > 0) {
+        report_warning(fmt::format("{}: {} of {} samples were not finite, negative or beyond what is summed, and were dropped",
+                                   request.output, totals.nonfinite, totals.samples + totals.nonfinite));
+    }
+    picture.json = to_json(request, outcome, renderer, totals, estimated_relmse(film), features,
+                           renderer.device_seconds() - device_seconds);
+    if (!quiet) {
+        fmt::print("{}: {}x{}, {} spp in {:.2f} s on {}{}\n", request.output, film.width, film.height, outcome.spp,
+                   outcome.seconds, outcome.device, outcome.interrupted ? ", interrupted" : "");
+    }
+    return picture;
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,24 @@
+// One picture of a render: sampled, saved, reported.
+#pragma once
+
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "render/render_request.h"
+#include "render/renderer.h"
+
+namespace diptych::app {
+
+struct Picture {
+    nlohmann::ordered_json json;
+    bool saved = false;  // not where an interrupt came before the first sample
+    bool interrupted = false;
+};
+
+/// Renders until the request's samples or seconds are reached or `cancel` is set, writes request.output and says so on stdout unless
+/// `quiet`. `label` stands before the progress line. Throws Error.
+Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
+                       const std::atomic<bool>& cancel, const std::string& label, bool quiet);
+
+}  // namespace diptych::app
