@@ -14,7 +14,7 @@ struct GltfOptions {
 };
 
 /// Loads a .gltf or .glb file: the default scene (else the first, else all root nodes) at rest, skins and morph targets
-/// baked. What is merely odd becomes a line of Scene::warnings. Throws Error, one line naming file, object and reason,
+/// baked, with its animations (pose.h). What is merely odd becomes a line of Scene::warnings. Throws Error, one line naming file, object and reason,
 /// where the file cannot be read, its data cannot be used, or it requires an extension that is neither
 /// supported nor ignored by `options`. The environment stays empty.
 Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});

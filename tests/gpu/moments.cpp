@@ -1,0 +1,112 @@
+// The device's scene at another moment.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "error.h"
+#include "gpu_fixture.h"
+#include "path_renderer.h"
+#include "scene/generate.h"
+#include "scene/pose.h"
+
+namespace diptych::tests {
+namespace {
+
+RenderSettings small_settings(bool keeps_previous) {
+    RenderSettings settings;
+    settings.width = 24;
+    settings.height = 18;
+    settings.max_depth = 3;
+    settings.moves = keeps_previous;
+    return settings;
+}
+
+Film shoot(Renderer& renderer, std::uint32_t seed) {
+    const std::atomic<bool> cancel = false;
+    renderer.restart(seed);
+    renderer.render(0, 4, cancel);
+    return renderer.film();
+}
+
+bool same_pixels(const Film& a, const Film& b) {
+    return a.pixels.size() == b.pixels.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(a.pixels[0])) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("A renderer that moved has the bits of a new one at that moment, on the device") {
+    NEED_VULKAN();
+    const bool keeps_previous = GENERATE(false, true);
+    const RenderSettings settings = small_settings(keeps_previous);
+    Scene scene = generate_scene("moving-light").scene;
+    PackedScene packed = pack_scene(scene, settings);
+    PathRenderer moved(packed, test_options());
+    std::vector<Film> films;
+    for (const double seconds : {0.5, 1.5, 3.0, 0.5}) {
+        CAPTURE(seconds, keeps_previous);
+        pose_scene(scene, seconds);
+        pack_moment(scene, settings, packed);
+        moved.move_to(packed);
+        films.push_back(shoot(moved, 7));
+        if (seconds > 1) {
+            PathRenderer fresh(pack_scene(scene, settings), test_options());
+            CHECK(same_pixels(films.back(), shoot(fresh, 7)));
+        }
+    }
+    CHECK_FALSE(same_pixels(films[0], films[1]));
+    CHECK_FALSE(same_pixels(films[1], films[2]));
+    CHECK(same_pixels(films[0], films[3]));
+    check_no_validation_messages();
+}
+
+TEST_CASE("A renderer keeps film and seed when it moves, and refuses another scene, on the device") {
+    NEED_VULKAN();
+    const RenderSettings settings = small_settings(false);
+    Scene scene = generate_scene("moving-light").scene;
+    PackedScene packed = pack_scene(scene, settings);
+    PathRenderer renderer(packed, test_options());
+    const Film before = shoot(renderer, 5);
+    pose_scene(scene, 1);
+    pack_moment(scene, settings, packed);
+    renderer.move_to(packed);
+    CHECK(same_pixels(renderer.film(), before));
+    PackedScene fewer = packed;
+    fewer.instances.pop_back();
+    CHECK_THROWS_AS(renderer.move_to(fewer), Error);
+    check_no_validation_messages();
+}
+
+TEST_CASE("What is flat at a moment is not there, on the device") {
+    NEED_VULKAN();
+    RenderSettings settings = small_settings(false);
+    settings.integrator = Integrator::brdf;
+    Scene scene = generate_scene("moving-light").scene;
+    // Half the size from all sides at 1 s; flat at 2 s.
+    const auto lamp = std::find_if(scene.nodes.begin(), scene.nodes.end(),
+                                   [](const Node& node) { return node.name == "moving lamp"; });
+    REQUIRE(lamp != scene.nodes.end());
+    const int node = static_cast<int>(lamp - scene.nodes.begin());
+    scene.animations = {
+        {"",
+         {{AnimatedProperty::translation, node, Interpolation::step, {0}, {0, 1.5F, 4}},
+          {AnimatedProperty::rotation, node, Interpolation::step, {0}, {-std::sqrt(0.5F), 0, 0, std::sqrt(0.5F)}},
+          {AnimatedProperty::scale, node, Interpolation::step, {0, 1}, {5, 5, 5, 5, 0, 5}}}}};
+    settings.max_depth = 0;
+    PackedScene packed = pack_scene(scene, settings);
+    PathRenderer renderer(packed, test_options());
+    const auto hits = [&](double seconds) {
+        pose_scene(scene, seconds);
+        pack_moment(scene, settings, packed);
+        renderer.move_to(packed);
+        const Film film = shoot(renderer, 1);
+        const shared::FilmPixel& middle = film.pixels[static_cast<std::size_t>(9 * 24 + 12)];
+        return middle.sum.x > 1;
+    };
+    CHECK(hits(0));
+    CHECK_FALSE(hits(1));
+    CHECK(hits(0.5));
+    check_no_validation_messages();
+}
+
+}  // namespace diptych::tests
