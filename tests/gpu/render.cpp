@@ -54,7 +54,7 @@ TEST_CASE("A render in many slices has the film of one in few, bit for bit") {
 }
 
 TEST_CASE("A renderer that starts over has the bits of a new one with that seed, on the device") {
-    NEED_DEVICE();
+    NEED_VULKAN();
     RenderSettings settings = small_settings();
     PackedScene packed = generated_scene("cornell", settings);
     PathRenderer renderer(packed, test_options(), {.ray_generation = {}, .slice_budget = 100});
