@@ -7,6 +7,11 @@ function(diptych_shaders name)
   find_program(DIPTYCH_GLSLANG glslangValidator REQUIRED)
   find_program(DIPTYCH_SPIRV_VAL spirv-val REQUIRED)
 
+  set(mutant "")
+  if(DIPTYCH_MUTANT AND NOT DIPTYCH_MUTANT STREQUAL "ALL")  # shaders have no environment to choose by
+    set(mutant -DDIPTYCH_MUTANT -I${PROJECT_BINARY_DIR}/mutant)
+  endif()
+
   set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FOLDER})
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${name})
   file(MAKE_DIRECTORY ${output})
@@ -21,7 +26,7 @@ function(diptych_shaders name)
     add_custom_command(
       OUTPUT ${binary}
       COMMAND ${DIPTYCH_GLSLANG} --quiet --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR}/shared_glsl_cpp
-              -I${PROJECT_SOURCE_DIR}/shaders --depfile ${binary}.d -o ${binary} ${shader}
+              -I${PROJECT_SOURCE_DIR}/shaders ${mutant} --depfile ${binary}.d -o ${binary} ${shader}
       COMMAND ${DIPTYCH_SPIRV_VAL} --scalar-block-layout --target-env vulkan1.2 ${binary}
       DEPENDS ${shader}
       DEPFILE ${binary}.d

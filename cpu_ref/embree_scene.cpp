@@ -130,7 +130,7 @@ EmbreeScene::ScenePtr EmbreeScene::build_mesh(const PackedScene& packed, std::si
                                    g.first_vertex * sizeof(glm::vec3), sizeof(glm::vec3), extent.vertex_count);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, packed.triangles.data(),
                                    g.first_triangle * sizeof(glm::uvec3), sizeof(glm::uvec3), extent.triangle_count);
-        if (extent.alpha) {
+        if (MUTANT(EMBREE_ALPHA_IGNORED, extent.alpha, false)) {
             rtcSetGeometryUserData(geometry, const_cast<PackedScene*>(&packed));
             rtcSetGeometryIntersectFilterFunction(geometry, filter_alpha);
             rtcSetGeometryOccludedFilterFunction(geometry, filter_alpha);
@@ -153,7 +153,9 @@ EmbreeScene::Placement EmbreeScene::placement(const PackedScene& packed, std::si
 }
 
 void EmbreeScene::place(RTCGeometry geometry, const Placement& placement) {
-    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, placement.rows.data());
+    const RTCFormat format =
+        MUTANT(EMBREE_TRANSPOSED, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR);
+    rtcSetGeometryTransform(geometry, 0, format, placement.rows.data());
     if (placement.shown) {
         rtcEnableGeometry(geometry);
     } else {

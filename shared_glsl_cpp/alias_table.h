@@ -17,7 +17,7 @@ FN uint alias_pick(IN(AliasEntry) e, uint column, uint bits) {
         return column;
     }
     uint threshold = uint(max(e.probability, 0.0f) * 4294967296.0f);
-    return bits < threshold ? column : e.alias;
+    return MUTANT(ALIAS_SWAPPED, bits < threshold, bits >= threshold) ? column : e.alias;
 }
 
 SHARED_END

@@ -68,7 +68,7 @@ FN float blinn_phong_eval(vec3 wo, vec3 wi, vec3 h, float alpha) {
 
 /// Density of the reflected direction, per steradian of wi: D(h) cos_h / (4 o·h).
 FN float pdf_blinn_phong_solid_angle(float o_dot_h, vec3 h, float alpha) {
-    return blinn_phong_d(h, alpha) * h.z / (4.0f * o_dot_h);
+    return blinn_phong_d(h, alpha) * h.z / MUTANT(NO_HALF_VECTOR_JACOBIAN_BLINN_PHONG, 4.0f * o_dot_h, 1.0f);
 }
 
 SHARED_END

@@ -88,7 +88,7 @@ FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, float p_specular
         return r;
     }
     if (!(p_specular > 0.0f)) {  // nothing but diffuse: f0 and f90 are 0
-        r.value = p.diffuse * (INV_PI * wi.z);
+        r.value = p.diffuse * (INV_PI * MUTANT(DROP_COSINE, wi.z, 1.0f));
         r.pdf = pdf_cosine_hemisphere_solid_angle(wi.z);
         return r;
     }

@@ -88,6 +88,14 @@ vec3 xyz(vec4 v) { return v.xyz; }
 #error "shared headers compile as C++ or as Vulkan GLSL"
 #endif
 
+// A fault that tests have to find (tests/mutants): `right`, unless CMake's DIPTYCH_MUTANT put `wrong` into the build.
+#if defined(DIPTYCH_MUTANT)
+#include "mutant_switches.h"
+#define MUTANT(name, right, wrong) (MUTANT_##name ? (wrong) : (right))
+#else
+#define MUTANT(name, right, wrong) (right)
+#endif
+
 SHARED_BEGIN
 CONST uint NONE = 0xffffffffu;  // index of nothing
 CONST float PI = 3.14159265358979f;

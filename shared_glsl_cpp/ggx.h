@@ -60,7 +60,9 @@ FN float ggx_eval(vec3 wo, vec3 wi, vec3 h, float alpha) {
 
 /// Density of the reflected direction, per steradian of wi: D_v / (4 o·h) = D G1 / (4 cos_o).
 FN float pdf_ggx_solid_angle(vec3 wo, vec3 h, float alpha) {
-    return 0.5f * ggx_d(h, alpha) / (wo.z + ggx_smith_length(wo, alpha));
+    float pdf = 0.5f * ggx_d(h, alpha) / (wo.z + ggx_smith_length(wo, alpha));
+    pdf = MUTANT(NO_HALF_VECTOR_JACOBIAN, pdf, pdf_ggx_visible_normal(wo, h, alpha));
+    return MUTANT(ALL_FACETS_FOR_VISIBLE, pdf, ggx_d(h, alpha) * h.z / (4.0f * dot(wo, h)));
 }
 
 /// ggx_eval / pdf_ggx_solid_angle = G2 / G1, in [0, 1].

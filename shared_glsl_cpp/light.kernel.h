@@ -132,13 +132,15 @@ FN LightSample sample_emitter(uint id, vec3 reference, vec2 u) {
     vec3 to_light = point - reference;
     vec3 front = emitter_front(light);
     float facing = -dot(front, to_light);
-    if (!(t.pdf > 0.0f) || (facing <= 0.0f && (light.flags & EMITTER_TWO_SIDED) == 0u)) {
+    bool one_sided = MUTANT(ONE_SIDED_AS_TWO_SIDED, (light.flags & EMITTER_TWO_SIDED) == 0u, false);
+    if (!(t.pdf > 0.0f) || (facing <= 0.0f && one_sided)) {
         return s;
     }
     s.direction = normalize_or(to_light, front);
     s.radiance = emitter_radiance(light, t.barycentrics);
-    s.pdf = light.pmf * t.pdf;
-    s.end = offset_ray(point, facing < 0.0f ? -front : front);
+    s.pdf = MUTANT(NO_LIGHT_PICK_PDF, light.pmf, 1.0f) * t.pdf;
+    vec3 end = MUTANT(SHADOW_RAY_TO_WRONG_LIGHT, point, load_emissive_triangles(0u).vertex_0);
+    s.end = offset_ray(end, facing < 0.0f ? -front : front);
     return s;
 }
 

@@ -30,7 +30,7 @@ FN uint ray_alpha_key(IN(Sampler) random, uint ray) {
 /// Weight of finding a light by sampling the material with density `pdf` where light sampling had density `pdf_light`.
 FN float bsdf_sampling_weight(float pdf, float pdf_light) {
     if (constants.integrator == INTEGRATOR_PATH) {
-        return mis_weight(constants.mis, pdf, pdf_light);
+        return MUTANT(MIS_ONE_AT_HIT, mis_weight(constants.mis, pdf, pdf_light), 1.0f);
     }
     return constants.integrator == INTEGRATOR_BRDF ? 1.0f : 0.0f;
 }
@@ -39,7 +39,7 @@ FN float light_sampling_weight(IN(LightSample) light, float pdf) {
     if (light.delta || constants.integrator != INTEGRATOR_PATH) {
         return 1.0f;
     }
-    return mis_weight(constants.mis, light.pdf, pdf);
+    return MUTANT(MIS_ONE_AT_LIGHT, mis_weight(constants.mis, light.pdf, pdf), 1.0f);
 }
 
 /// Whether a ray that found light by sampling the material, from a vertex that could also sample lights, needs the light's pdf.
@@ -87,7 +87,7 @@ FN DirectLight sample_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) b
     BsdfValue f = surface_bsdf_eval_pdf(bsdf, seen, light.direction, features());
     direct.radiance = f.value * light.radiance * (light_sampling_weight(light, f.pdf) / light.pdf);
     direct.direction = light.distant ? light.direction : light.end - origin;
-    direct.t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
+    direct.t_max = light.distant ? INFINITE_DISTANCE : MUTANT(SHORT_SHADOW_RAY, 0.9999f, 0.9999f * 0.99f);
     return direct;
 }
 
@@ -153,6 +153,7 @@ FN void add_emission(INOUT(PathState) path, IN(Surface) surface, IN(Material) ma
             float pdf_light = needs_light_pdf() ? pdf_light_of_hit(surface, path.reference) : 0.0f;
             weight = bsdf_sampling_weight(path.pdf_direction, pdf_light);
         }
+        weight = MUTANT(EMISSION_TWICE, weight, path.depth == 1u ? 2.0f * weight : weight);
         path.found.radiance += path.throughput * (weight * material_emission(material, surface.mesh));
     }
 }
@@ -177,7 +178,8 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
     add_emission(path, surface, material);
 
-    bool last = depth == constants.max_depth || (material.flags & MATERIAL_UNLIT) != 0u;
+    bool last = MUTANT(DEPTH_OFF_BY_ONE, depth == constants.max_depth, depth > constants.max_depth) ||
+                (material.flags & MATERIAL_UNLIT) != 0u;
     bool wants_layers = feature(FEATURE_FIRST_HIT_LAYERS) && depth == 0u;
     if (last && !wants_layers) {
         return;
@@ -214,7 +216,7 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     if (goes_on && survival < 1.0f) {
         float u = sample_1d(path.random, dimension + DIMENSION_ROULETTE);
         goes_on = u < survival;
-        path.throughput = path.throughput * (1.0f / survival);
+        path.throughput = path.throughput * MUTANT(ROULETTE_NOT_DIVIDED, 1.0f / survival, 1.0f);
     }
     path.pdf_direction = next.pdf;
     path.reference = surface.position;

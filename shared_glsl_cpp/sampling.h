@@ -39,7 +39,7 @@ FN vec3 sample_cosine_hemisphere(vec2 u) {
 }
 
 FN float pdf_cosine_hemisphere_solid_angle(float cos_theta) {
-    return max(cos_theta, 0.0f) * INV_PI;
+    return MUTANT(UNIFORM_PDF, max(cos_theta, 0.0f), 0.5f) * INV_PI;
 }
 
 FN vec3 sample_uniform_hemisphere(vec2 u) {

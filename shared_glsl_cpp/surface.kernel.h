@@ -32,6 +32,7 @@ FN vec3 transform_normal(IN(Instance) i, vec3 n) {
     vec3 r1 = xyz(i.row_1);
     vec3 r2 = xyz(i.row_2);
     vec3 m = vec3(dot(cross(r1, r2), n), dot(cross(r2, r0), n), dot(cross(r0, r1), n));
+    m = MUTANT(NORMAL_AS_VECTOR, m, transform_vector(i, n));
     return i.mirrored != 0u ? -m : m;
 }
 

@@ -112,7 +112,9 @@ FN float pdf_triangle_area_solid_angle(IN(TriangleView) view, vec3 to_point) {
     if (!(height > 1e-30f)) {
         return 0.0f;
     }
-    return min(2.0f * r_squared * sqrt(r_squared) / height, 8.0e37f);
+    float pdf = MUTANT(NO_AREA_JACOBIAN, 2.0f * r_squared * sqrt(r_squared) / height,
+                       2.0f / length(triangle_cross(view.e1, view.e2)));
+    return min(pdf, 8.0e37f);
 }
 
 /// The pdf that sample_triangle_solid_angle has for this point of the triangle, from the same reference point.

@@ -1,3 +1,4 @@
+#include <array>
 #include <cstring>
 #include <string>
 
@@ -18,14 +19,19 @@ std::vector<vk::AccelerationStructureInstanceKHR> describe_instances(const Packe
         const shared::Instance& instance = packed.instances[i];
         vk::AccelerationStructureInstanceKHR target{};  // its bit fields have no initialisers of their own
         const bool shown = is_shown(packed, i);
-        for (std::size_t column = 0; column < 4; ++column) {
-            const auto c = static_cast<glm::length_t>(column);
-            target.transform.matrix[0][column] = shown ? instance.row_0[c] : column == 0 ? 1.0F : 0.0F;
-            target.transform.matrix[1][column] = shown ? instance.row_1[c] : column == 1 ? 1.0F : 0.0F;
-            target.transform.matrix[2][column] = shown ? instance.row_2[c] : column == 2 ? 1.0F : 0.0F;
+        const std::array<glm::vec4, 3> placed = {instance.row_0, instance.row_1, instance.row_2};
+        const std::array<glm::vec4, 3> nowhere = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+        const std::array<glm::vec4, 3>& rows = shown ? placed : nowhere;
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 4; ++column) {
+                const bool transposed = MUTANT(INSTANCE_TRANSPOSED, false, column < 3);
+                target.transform.matrix[row][column] = transposed ? rows[column][row] : rows[row][column];
+            }
         }
-        target.mask = shown ? 0xff : 0;
-        target.setFlags(vk::GeometryInstanceFlagBitsKHR::eTriangleFacingCullDisable);
+        target.mask = MUTANT(CULL_MASK, shown, i < 8) ? 0xff : 0;
+        using Flags = vk::GeometryInstanceFlagBitsKHR;
+        target.setFlags(MUTANT(ALPHA_IGNORED, Flags::eTriangleFacingCullDisable,
+                               Flags::eTriangleFacingCullDisable | Flags::eForceOpaque));
         target.accelerationStructureReference = bottom.addresses[packed.instance_meshes[i]];
         described.push_back(target);
     }

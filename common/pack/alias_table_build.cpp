@@ -45,7 +45,7 @@ std::vector<shared::AliasEntry> build_alias_table(std::span<const double> probab
         const std::uint32_t l = large.back();
         small.pop_back();
         table[s] = {static_cast<float>(scaled[s]), l};
-        scaled[l] -= 1 - scaled[s];
+        scaled[l] -= MUTANT(ALIAS_REMAINDER, 1 - scaled[s], 0.0);
         if (scaled[l] < 1) {
             large.pop_back();
             small.push_back(l);
