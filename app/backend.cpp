@@ -13,6 +13,10 @@
 
 namespace diptych::app {
 
+std::vector<std::string> backend_names() {
+    return {"cpu", "vulkan", "oracle"};
+}
+
 std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request) {
     if (request.backend == "oracle") {
         return make_oracle_renderer(scene, request.settings, oracle_mode_from_name(request.oracle_mode),

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "pack/packed_scene.h"
 #include "render/render_request.h"
@@ -9,6 +11,9 @@
 #include "scene/scene.h"
 
 namespace diptych::app {
+
+/// What --backend may name.
+std::vector<std::string> backend_names();
 
 /// The panels read the packed scene, the oracle the logical one it was made of; both must outlive the renderer. Throws NoDevice
 /// where there is no suitable one, Error where the program was built without that backend.

@@ -44,6 +44,7 @@ int run_program(int argc, char** argv) {
     add_info(app, run);
     add_generate(app, run);
     add_bench(app, run);
+    add_verify(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {

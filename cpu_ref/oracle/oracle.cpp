@@ -120,6 +120,12 @@ void Oracle::render(std::uint64_t first, std::uint64_t count, const std::atomic<
     }
 }
 
+void Oracle::restart(std::uint32_t seed) {
+    state_->settings.seed = seed;
+    state_->image.pixels.assign(state_->image.pixels.size(), {});
+    state_->image.depths.assign(state_->image.depths.size(), {});
+}
+
 const OracleImage& Oracle::image() const {
     return state_->image;
 }

@@ -57,6 +57,9 @@ public:
     /// any number of threads. Ends early, within about 0.1 s, once `cancel` is set; each pixel's own count stays right.
     void render(std::uint64_t first, std::uint64_t count, const std::atomic<bool>& cancel);
 
+    /// Empties the image and goes on with another seed.
+    void restart(std::uint32_t seed);
+
     const OracleImage& image() const;
     /// Of triangles, sums and Embree's structures, and of those alone.
     std::uint64_t bytes() const;

@@ -93,7 +93,7 @@ public:
 
     void restart(std::uint32_t seed) override {
         oracle_settings_.seed = seed;
-        begin();
+        oracle_->restart(seed);
     }
 
     void move_to(const PackedScene&) override { begin(); }

@@ -7,9 +7,10 @@
 #include <random>
 #include <vector>
 
-#include "chi_square.h"
 #include "close.h"
 #include "compat.h"
+#include "stats/chi_square.h"
+#include "stats/multiple_testing.h"
 
 namespace diptych::tests {
 
@@ -180,13 +181,13 @@ ChiSquareResult chi_square(const Chart& chart, int64_t draws, const Draw& draw, 
     for (double& e : expected) {
         e = std::max(e * static_cast<double>(draws), 1e-9);  // pooled, not impossible: the density above says what is
     }
-    result.p = 0.5 * std::erfc(chi_square_deviate(observed, expected) / std::sqrt(2.0));
+    result.p = chi_square_fit(observed, expected).p;
     return result;
 }
 
 /// The least p-value that passes one of `tests` tests at a family-wise error of 1e-3 (Šidák).
 inline double sidak_threshold(int tests) {
-    return 1.0 - std::pow(1.0 - 1e-3, 1.0 / tests);
+    return diptych::sidak_threshold(1e-3, tests);
 }
 
 /// The unit direction with that cosine and azimuth.

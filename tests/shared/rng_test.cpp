@@ -2,13 +2,13 @@
 #include "rng.h"
 
 #include "catch.h"
-#include "chi_square.h"
+#include "stats/chi_square.h"
 
 #include <set>
 
 using namespace diptych::shared;
-using diptych::tests::deviate_limit;
-using diptych::tests::uniform_deviate;
+using diptych::deviate_limit;
+using diptych::uniform_deviate;
 
 TEST_CASE("pcg4d and hash_word give the words of the published definitions") {
     // Computed from the papers' definitions with integers of unlimited size.

@@ -2,14 +2,14 @@
 #include "sampler.h"
 
 #include "catch.h"
-#include "chi_square.h"
+#include "stats/chi_square.h"
 
 #include <cmath>
 #include <set>
 
 using namespace diptych::shared;
-using diptych::tests::deviate_limit;
-using diptych::tests::uniform_deviate;
+using diptych::deviate_limit;
+using diptych::uniform_deviate;
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include "sampling.h"
 
 #include "catch.h"
-#include "chi_square.h"
+#include "stats/chi_square.h"
 #include "close.h"
 #include "frame.h"
 #include "ray_offset.h"
@@ -11,9 +11,9 @@
 #include <cmath>
 
 using namespace diptych::shared;
-using diptych::tests::chi_square_deviate;
+using diptych::chi_square_deviate;
 using diptych::tests::close;
-using diptych::tests::deviate_limit;
+using diptych::deviate_limit;
 
 namespace {
 
@@ -90,7 +90,7 @@ TEST_CASE("The disk is uniform") {
         REQUIRE(squared < 1 + 1e-6);
         cells[std::size_t(std::min(squared * 64, 63.0)) * columns + azimuth_cell(p.x, p.y)] += 1;
     }
-    CHECK(std::abs(diptych::tests::uniform_deviate(cells)) < deviate_limit);
+    CHECK(std::abs(diptych::uniform_deviate(cells)) < deviate_limit);
 }
 
 TEST_CASE("Warps are defined at the ends of u") {

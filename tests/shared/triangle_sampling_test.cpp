@@ -2,15 +2,15 @@
 #include "triangle_sampling.h"
 
 #include "catch.h"
-#include "chi_square.h"
+#include "stats/chi_square.h"
 #include "rng.h"
 #include "sampling.h"
 
 #include <cmath>
 
 using namespace diptych::shared;
-using diptych::tests::chi_square_deviate;
-using diptych::tests::deviate_limit;
+using diptych::chi_square_deviate;
+using diptych::deviate_limit;
 
 namespace {
 
@@ -106,7 +106,7 @@ TEST_CASE("sample_triangle is uniform and stays inside at the ends of u") {
         const double root = 1 - double(b.x);
         cells[std::size_t(std::min(root * root * 32, 31.0)) * 32 + std::size_t(std::min(b.y / root * 32, 31.0))] += 1;
     }
-    CHECK(std::abs(diptych::tests::uniform_deviate(cells)) < deviate_limit);
+    CHECK(std::abs(diptych::uniform_deviate(cells)) < deviate_limit);
 }
 
 TEST_CASE("Solid angles agree with fp64 from 1e-10 sr to 2 pi") {

@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <memory>
+#include <random>
+
+#include "command.h"
+#include "error.h"
+#include "interrupt.h"
+#include "report.h"
+#include "scene_setup.h"
+#include "verify_report.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr const char* default_size = "128";
+
+constexpr const char* examples = R"(Examples:
+  diptych verify cornell.gltf
+  diptych verify cornell.gltf --backends cpu --integrators brdf,direct --against cpu/path --spp 256 -o figures
+  diptych verify scene.glb --backends vulkan --against cpu --time 600 --require-pass --json
+  diptych verify cornell.gltf --fresh-seeds --time 3600
+Renders each side --runs times, every run with a seed of its own, and compares the runs' means by Welch's test: of the image, of all
+tiles together (Fisher), and of the least likely tile. FAIL: more than chance would do, over all pairs together, at --alpha. PASS: no such
+difference, and the intervals are narrow enough for one to be seen. INCONCLUSIVE: neither; more samples would tell. Exit code 1 on FAIL, and
+with --require-pass on INCONCLUSIVE too.)";
+
+/// "vulkan/path: run 3 of 32", in place on a terminal, elsewhere at each doubling of the time from two seconds on.
+class RunLine {
+public:
+    explicit RunLine(std::uint32_t runs) : runs_(runs), terminal_(isatty(STDERR_FILENO) == 1) {}
+    ~RunLine() {
+        if (terminal_ && shown_) {
+            fmt::print(stderr, "\r\x1b[K");
+        }
+    }
+    RunLine(const RunLine&) = delete;
+    RunLine& operator=(const RunLine&) = delete;
+
+    void show(const SideName& side, std::uint32_t run) {
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        if (seconds < next_) {
+            return;
+        }
+        next_ = terminal_ ? seconds + 0.1 : 2 * seconds;
+        shown_ = true;
+        fmt::print(stderr, "{}{}: run {} of {}, {:.0f} s{}", terminal_ ? "\r" : "", text_of(side), run + 1, runs_,
+                   seconds, terminal_ ? "\x1b[K" : "\n");
+        std::fflush(stderr);
+    }
+
+private:
+    std::uint32_t runs_;
+    bool terminal_;
+    bool shown_ = false;
+    double next_ = 2;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::vector<PairName> check_options(VerifyOptions& options) {
+    if (options.arguments.size.empty()) {
+        options.arguments.size = default_size;
+    }
+    // Which panels heed --device and --threads is plan_pairs' to say.
+    RenderArguments names = options.arguments;
+    names.request.device.clear();
+    names.request.threads = 0;
+    names.request.validation = false;
+    resolve_names(names);
+    const RenderRequest typed = options.arguments.request;
+    options.arguments.request.settings = names.request.settings;
+    if (typed.settings.sampler == SamplerKind::hammersley ||
+        names.request.settings.sampler == SamplerKind::hammersley) {
+        if (options.seconds > 0) {
+            throw Error("--sampler hammersley: is laid out for a known number of samples: give --spp");
+        }
+    }
+    if (!options.output.empty()) {
+        prepare_folder(options.output);
+    }
+    return plan_pairs(options);
+}
+
+int exit_code_of(Verdict verdict, bool require_pass) {
+    const bool fails = verdict == Verdict::fail || (require_pass && verdict == Verdict::inconclusive);
+    return fails ? exit_check_failed : exit_done;
+}
+
+int run_verify(VerifyOptions options) {
+    const std::vector<PairName> pairs = check_options(options);
+    const Scene scene = prepare_scene(options.arguments);
+    const std::uint32_t seed =
+        options.fresh_seeds && !options.seed_given ? static_cast<std::uint32_t>(std::random_device{}()) : options.seed;
+    std::optional<SuiteResult> suite;
+    {
+        InterruptGuard interrupt;
+        RunLine line(options.runs);
+        suite = run_suite(options, pairs, scene, seed, interrupt.requested(),
+                          [&](const SideName& side, std::uint32_t run) { line.show(side, run); });
+    }
+    if (!suite) {
+        report_error(fmt::format("{}: interrupted before all runs were done; there is no verdict",
+                                 options.arguments.request.scene));
+        return exit_interrupted;
+    }
+    const std::vector<std::string> figures =
+        options.output.empty() ? std::vector<std::string>() : write_suite_figures(options.output, *suite);
+    if (options.json) {
+        nlohmann::ordered_json json = suite_to_json(options, *suite);
+        json["figures"] = figures;
+        print_json(json);
+    } else {
+        print_suite(options, *suite);
+    }
+    return exit_code_of(verdict_of(*suite), options.require_pass);
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("verify", "Test that panels and integrators have one expectation");
+    auto options = std::make_shared<VerifyOptions>();
+    RenderRequest& request = options->arguments.request;
+    command->add_option("scene", request.scene, ".gltf or .glb file")->required();
+    command->add_option("--integrators", options->integrators, "Comma-separated")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--backends", options->backends, "Panels under test, comma-separated")
+        ->delimiter(',')
+        ->capture_default_str();
+    command
+        ->add_option("--against", options->against,
+                     "Reference: BACKEND, under the same integrator, or BACKEND/INTEGRATOR for all")
+        ->capture_default_str();
+    command->add_option("--runs", options->runs, "Renders a side")->check(CLI::Range(2, 4096))->capture_default_str();
+    CLI::Option* spp = command->add_option("--spp", options->spp, "Samples a pixel of each run")
+                           ->check(CLI::Range(1U, 1U << 30U))
+                           ->capture_default_str();
+    command
+        ->add_option("--time", options->seconds,
+                     "Double the samples until every pair has power or so many seconds are used up")
+        ->check(CLI::Range(0.001, 1e9))
+        ->check(finite_number())
+        ->excludes(spp);
+    command->add_option("--tile", options->tile, "Side of a tile, pixels")
+        ->check(CLI::Range(1, 32768))
+        ->capture_default_str();
+    command->add_option("--alpha", options->alpha, "Chance of a false FAIL, over all pairs together")
+        ->check(CLI::Range(1e-12, 0.5))
+        ->check(finite_number())
+        ->capture_default_str();
+    command
+        ->add_option("--max-half-width", options->max_half_width,
+                     "PASS wants the image mean known to so many percent (95 %)")
+        ->check(positive_number())
+        ->capture_default_str();
+    command
+        ->add_option("--max-tile-half-width", options->max_tile_half_width, "And half of the tiles to so many percent")
+        ->check(positive_number())
+        ->capture_default_str();
+    CLI::Option* seed = command->add_option("--seed", options->seed, "First of the seeds, which go on from there")
+                            ->capture_default_str();
+    command->add_flag(
+        "--fresh-seeds", options->fresh_seeds,
+        "Seeds by chance, unless --seed repeats such a run; what fails is tried again with four times the samples");
+    command->add_flag("--require-pass", options->require_pass, "Exit 1 on INCONCLUSIVE too");
+    add_scene_options(*command, options->arguments);
+    command->add_option("--device", request.device, "Vulkan device by index or name; the best by default");
+    command->add_option("--threads", request.threads, "CPU threads; one a core by default")->check(CLI::Range(1, 4096));
+    command->add_flag("--validation", request.validation, "Run Vulkan's validation layers");
+    command->add_option("-o,--output", options->output, "Folder for a map and a histogram of each pair's p-values");
+    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->footer(examples);
+    command->callback([options, seed, &run] {
+        options->seed_given = seed->count() > 0;
+        run = [options] { return run_verify(*options); };
+    });
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,54 @@
+// What `verify` is asked: which pairs of renders are to have one mean, and how sure it is to be.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+
+namespace diptych::app {
+
+/// The options as typed; see add_verify for what they mean.
+struct VerifyOptions {
+    RenderArguments arguments;  // scene, its settings, device, threads, validation
+    std::vector<std::string> integrators{"brdf", "direct", "path"};
+    std::vector<std::string> backends{"vulkan"};
+    std::string against = "cpu";
+    std::uint32_t runs = 32;
+    std::uint32_t spp = 64;
+    std::uint32_t seed = 1;
+    int tile = 16;
+    double alpha = 1e-3;
+    double max_half_width = 0.1;
+    double max_tile_half_width = 1;
+    double seconds = 0;
+    bool fresh_seeds = false;
+    bool seed_given = false;
+    bool require_pass = false;
+    std::string output;
+    bool json = false;
+};
+
+/// One panel under one integrator.
+struct SideName {
+    std::string backend;
+    Integrator integrator = Integrator::path;
+
+    bool operator==(const SideName&) const = default;
+};
+
+/// "cpu/path".
+std::string text_of(const SideName& side);
+
+struct PairName {
+    SideName a;
+    SideName b;  // the reference
+};
+
+/// Every backend with every integrator against the reference: "BACKEND" is that backend under the same integrator,
+/// "BACKEND/INTEGRATOR" one and the same reference for all. Throws Error for unknown names, and for options that no
+/// backend among them would heed.
+std::vector<PairName> plan_pairs(const VerifyOptions& options);
+
+}  // namespace diptych::app

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "backend.h"
+#include "error.h"
+#include "render/settings_names.h"
+#include "verify_options.h"
+
+namespace diptych::app {
+
+namespace {
+
+void check_backend(const std::string& option, const std::string& name) {
+    const std::vector<std::string> known = backend_names();
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+        throw Error(fmt::format("{} {}: there are only {}", option, name, fmt::join(known, ", ")));
+    }
+}
+
+template <class T>
+void check_distinct(const std::string& option, std::vector<T> names) {
+    if (names.empty()) {
+        throw Error(fmt::format("{}: names none", option));
+    }
+    std::sort(names.begin(), names.end());
+    const auto twice = std::adjacent_find(names.begin(), names.end());
+    if (twice != names.end()) {
+        throw Error(fmt::format("{}: names {} twice", option, *twice));
+    }
+}
+
+void check_backend_options(const VerifyOptions& options, const std::vector<PairName>& pairs) {
+    const RenderRequest& request = options.arguments.request;
+    const auto uses = [&](bool (*wanted)(const std::string&)) {
+        return std::any_of(pairs.begin(), pairs.end(),
+                           [&](const PairName& pair) { return wanted(pair.a.backend) || wanted(pair.b.backend); });
+    };
+    const bool vulkan = uses([](const std::string& backend) { return backend == "vulkan"; });
+    if (!vulkan && (!request.device.empty() || request.validation)) {
+        throw Error(fmt::format("--{}: goes with vulkan, which is not among the backends",
+                                request.validation ? "validation" : "device"));
+    }
+    if (request.threads != 0 && !uses([](const std::string& backend) { return backend != "vulkan"; })) {
+        throw Error("--threads: goes with the CPU, which is not among the backends");
+    }
+}
+
+}  // namespace
+
+std::string text_of(const SideName& side) {
+    return fmt::format("{}/{}", side.backend, name_of(side.integrator));
+}
+
+std::vector<PairName> plan_pairs(const VerifyOptions& options) {
+    check_distinct("--backends", options.backends);
+    check_distinct("--integrators", options.integrators);
+    const std::size_t slash = options.against.find('/');
+    const std::string reference = options.against.substr(0, slash);
+    check_backend("--against", reference);
+    std::vector<PairName> pairs;
+    for (const std::string& backend : options.backends) {
+        check_backend("--backends", backend);
+        for (const std::string& integrator : options.integrators) {
+            PairName pair;
+            pair.a = {backend, integrator_from_name(integrator)};
+            pair.b = {reference, slash == std::string::npos ? pair.a.integrator
+                                                            : integrator_from_name(options.against.substr(slash + 1))};
+            pairs.push_back(pair);
+        }
+    }
+    check_backend_options(options, pairs);
+    return pairs;
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,143 @@
+#include "verify_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "build_info.h"
+#include "stats/kolmogorov_smirnov.h"
+
+namespace diptych::app {
+
+namespace {
+
+std::vector<PairVerdict> verdicts_of(const SuiteResult& suite) {
+    std::vector<PairVerdict> verdicts;
+    for (const PairResult& pair : suite.pairs) {
+        verdicts.push_back(pair.verdict);
+    }
+    return verdicts;
+}
+
+double tile_ks_p(const TileComparison& comparison) {
+    std::vector<double> p;
+    for (const TileOutcome& tile : comparison.tiles) {
+        if (tile.state == ChannelState::tested) {
+            p.push_back(tile.p);
+        }
+    }
+    return kolmogorov_smirnov_uniform(p).p;
+}
+
+/// Samples a pixel at which the intervals would be as narrow as was asked, were the noise to fall as that of
+/// independent samples does.
+double wanted_spp(const PairResult& pair, const VerifyOptions& options) {
+    const double image = pair.comparison.half_width_percent / options.max_half_width;
+    const double tiles = pair.comparison.tile_half_width_percent / options.max_tile_half_width;
+    const double factor = std::max(image, tiles);
+    return std::ceil(pair.spp * factor * factor);
+}
+
+void print_pair(const PairResult& pair, const VerifyOptions& options) {
+    const TileComparison& c = pair.comparison;
+    fmt::print(
+        "{:<28} {:>7} {:>9.4f}  [{:>8.4f}, {:>8.4f}] {:>8.4f} {:>8.4f} {:>5.0f}% {:>9.2g} {:>9.2g} {:>9.2g}  {}\n",
+        text_of(pair.names.a) + " - " + text_of(pair.names.b), pair.spp, c.bias_percent, c.ci95_percent[0],
+        c.ci95_percent[1], c.half_width_percent, pair.verdict.min_detectable_percent, 100 * c.resolved_share,
+        c.global_p, c.fisher_p, c.min_p, name_of(pair.verdict.verdict));
+    if (pair.verdict.verdict != Verdict::pass) {
+        fmt::print("    {}{}\n", pair.verdict.reason,
+                   pair.verdict.verdict == Verdict::inconclusive &&
+                           !has_power(c, {.max_half_width = options.max_half_width,
+                                          .max_tile_half_width = options.max_tile_half_width})
+                       ? fmt::format(": try --spp {:.0f}", wanted_spp(pair, options))
+                       : "");
+    }
+}
+
+}  // namespace
+
+Verdict verdict_of(const SuiteResult& suite) {
+    return overall(verdicts_of(suite));
+}
+
+void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
+    const RenderSettings& settings = options.arguments.request.settings;
+    fmt::print("{} at {}x{}: {} runs a side, {} tiles of {}x{}, seeds from {}, {:.1f} s\n",
+               options.arguments.request.scene, settings.width, settings.height, options.runs,
+               suite.grid.columns * suite.grid.rows, options.tile, options.tile, suite.seed, suite.seconds);
+    fmt::print("{:<28} {:>7} {:>9}  {:^20} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9}  verdict\n", "pair", "spp", "bias %",
+               "95 % interval", "+-", "detects", "tiles", "image p", "Fisher p", "least p");
+    for (const PairResult& pair : suite.pairs) {
+        print_pair(pair, options);
+    }
+    fmt::print(
+        "PASS wants +- <= {:.3g} % (the widest channel of the image mean) and half of the tiles within {:.3g} %; "
+        "tiles: those within 1 %.\n",
+        options.max_half_width, options.max_tile_half_width);
+    fmt::print(
+        "FAIL at a family-wise alpha of {:.2g}{}; a bias of \"detects\" % of the image would be found 9 times in 10.\n",
+        options.alpha,
+        options.fresh_seeds
+            ? fmt::format(", then {:.2g} with other seeds and four times the samples", options.alpha / 10)
+            : "");
+    if (options.fresh_seeds) {
+        fmt::print("To repeat: --fresh-seeds --seed {}\n", suite.seed);
+    }
+    fmt::print("{}\n", name_of(verdict_of(suite)));
+}
+
+nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteResult& suite) {
+    const RenderSettings& settings = options.arguments.request.settings;
+    nlohmann::ordered_json json;
+    json["verdict"] = name_of(verdict_of(suite));
+    json["scene"] = options.arguments.request.scene;
+    json["width"] = settings.width;
+    json["height"] = settings.height;
+    json["max_depth"] = settings.max_depth;
+    json["runs"] = options.runs;
+    json["tile"] = options.tile;
+    json["alpha"] = options.alpha;
+    json["max_half_width_percent"] = options.max_half_width;
+    json["max_tile_half_width_percent"] = options.max_tile_half_width;
+    json["fresh_seeds"] = options.fresh_seeds;
+    json["seed"] = suite.seed;
+    json["seconds"] = suite.seconds;
+    json["commit"] = build_info::commit;
+    json["pairs"] = nlohmann::ordered_json::array();
+    for (const PairResult& pair : suite.pairs) {
+        const TileComparison& c = pair.comparison;
+        nlohmann::ordered_json entry;
+        entry["a"] = text_of(pair.names.a);
+        entry["b"] = text_of(pair.names.b);
+        entry["spp"] = pair.spp;
+        entry["bias_percent"] = c.bias_percent;
+        entry["ci95_percent"] = c.ci95_percent;
+        entry["channel_bias_percent"] = c.channel_bias_percent;
+        entry["half_width_percent"] = c.half_width_percent;
+        entry["min_detectable_percent"] = pair.verdict.min_detectable_percent;
+        entry["global_p"] = c.global_p;
+        entry["fisher_p"] = c.fisher_p;
+        entry["min_p"] = c.min_p;
+        entry["adjusted_p"] = pair.verdict.adjusted_p;
+        entry["tile_ks_p"] = tile_ks_p(c);
+        entry["tiles"] = c.tiles.size();
+        entry["tiles_tested"] = c.tested;
+        entry["tiles_unequal"] = c.unequal;
+        entry["tiles_heavy"] = {c.heavy_a, c.heavy_b};
+        entry["tile_half_width_percent"] = c.tile_half_width_percent;
+        entry["tiles_within_1_percent"] = c.resolved_share;
+        entry["stage"] = pair.stage;
+        entry["stage_alpha"] = pair.alpha;
+        entry["seed_a"] = pair.seed_a;
+        entry["seed_b"] = pair.seed_b;
+        entry["device_a"] = pair.device_a;
+        entry["device_b"] = pair.device_b;
+        entry["verdict"] = name_of(pair.verdict.verdict);
+        entry["reason"] = pair.verdict.reason;
+        json["pairs"].push_back(entry);
+    }
+    return json;
+}
+
+}  // namespace diptych::app

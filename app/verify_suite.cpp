@@ -1,0 +1,184 @@
+#include "verify_suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace diptych::app {
+
+namespace {
+
+constexpr std::uint32_t first_spp = 4;         // where time is the limit
+constexpr double least_extension = 0.2;        // of the samples so far: less is not worth it
+constexpr std::uint32_t second_stage_spp = 4;  // times the first's
+constexpr double second_stage_alpha = 0.1;     // likewise
+constexpr double first_stage_time = 0.2;       // leaves the second stage its four times as many samples
+constexpr std::uint32_t second_stage_seeds = 0x80000000U;
+constexpr std::uint32_t most_spp = 1U << 30U;
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Stage {
+    std::vector<PairName> pairs;
+    std::uint32_t seed = 0;
+    std::uint32_t spp = 0;
+    double seconds = 0;  // 0: spp is what counts
+    VerdictLimits limits;
+    int number = 1;
+};
+
+/// A side of several pairs is rendered once. Candidates and references are apart, even where they bear one name.
+struct Sides {
+    std::vector<VerifySide> all;
+    std::vector<std::uint32_t> seeds;
+    std::vector<std::pair<std::size_t, std::size_t>> of_pair;  // indices
+
+    Sides(const Stage& stage, const Scene& scene, const VerifyOptions& options) {
+        std::vector<std::pair<SideName, bool>> known;
+        const auto find = [&](const SideName& name, bool reference) {
+            const auto at = std::find(known.begin(), known.end(), std::pair(name, reference));
+            if (at != known.end()) {
+                return static_cast<std::size_t>(at - known.begin());
+            }
+            known.emplace_back(name, reference);
+            seeds.push_back(stage.seed + static_cast<std::uint32_t>(all.size()) * options.runs);
+            all.emplace_back(name, scene, options, seeds.back(), stage.spp);
+            return all.size() - 1;
+        };
+        for (const PairName& pair : stage.pairs) {
+            const std::size_t a = find(pair.a, false);
+            of_pair.emplace_back(a, find(pair.b, true));
+        }
+    }
+
+    bool extend(std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook) {
+        return std::all_of(all.begin(), all.end(),
+                           [&](VerifySide& side) { return side.extend(samples, cancel, hook); });
+    }
+};
+
+std::vector<TileComparison> compare(const Sides& sides, const TileTestOptions& options = {}) {
+    std::vector<TileComparison> comparisons;
+    for (const auto& [a, b] : sides.of_pair) {
+        comparisons.push_back(compare_runs(sides.all[a].runs(), sides.all[b].runs(), options));
+    }
+    return comparisons;
+}
+
+/// Samples to add next; 0 where the time would not suffice for enough of them.
+std::uint32_t next_extension(std::uint32_t spp, double rendering_seconds, double seconds_left) {
+    const double share = std::min(1.0, seconds_left / std::max(rendering_seconds, 1e-9));
+    return share < least_extension || spp >= most_spp ? 0 : static_cast<std::uint32_t>(std::floor(spp * share));
+}
+
+bool render_stage(const Stage& stage, Sides& sides, const std::atomic<bool>& cancel, const RunHook& hook) {
+    const double start = now();
+    if (stage.seconds == 0) {
+        return sides.extend(stage.spp, cancel, hook);
+    }
+    std::uint32_t samples = first_spp;
+    while (samples > 0) {
+        if (!sides.extend(samples, cancel, hook)) {
+            return false;
+        }
+        const double rendering = now() - start;
+        const std::vector<TileComparison> comparisons = compare(sides, {.permutations = 0});  // for their widths
+        if (std::all_of(comparisons.begin(), comparisons.end(),
+                        [&](const TileComparison& c) { return has_power(c, stage.limits); })) {
+            break;
+        }
+        samples = next_extension(sides.all.front().spp(), rendering, start + stage.seconds - now());
+    }
+    return true;
+}
+
+std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Scene& scene, const VerifyOptions& options,
+                                                 const std::atomic<bool>& cancel, const RunHook& hook) {
+    Sides sides(stage, scene, options);
+    if (!render_stage(stage, sides, cancel, hook)) {
+        return std::nullopt;
+    }
+    const std::vector<TileComparison> comparisons = compare(sides);
+    const std::vector<PairVerdict> verdicts = judge(comparisons, stage.limits);
+    std::vector<PairResult> results;
+    for (std::size_t i = 0; i < stage.pairs.size(); ++i) {
+        const auto [a, b] = sides.of_pair[i];
+        PairResult result;
+        result.names = stage.pairs[i];
+        result.comparison = comparisons[i];
+        result.verdict = verdicts[i];
+        result.alpha = stage.limits.alpha;
+        result.spp = sides.all[a].spp();
+        result.seed_a = sides.seeds[a];
+        result.seed_b = sides.seeds[b];
+        result.stage = stage.number;
+        result.device_a = sides.all[a].device();
+        result.device_b = sides.all[b].device();
+        const std::uint64_t nonfinite = sides.all[a].nonfinite() + sides.all[b].nonfinite();
+        if (nonfinite > 0) {
+            result.verdict.verdict = Verdict::fail;
+            result.verdict.reason = fmt::format("{} samples were not finite, or negative, and dropped", nonfinite);
+        }
+        results.push_back(result);
+    }
+    return results;
+}
+
+/// The pairs that failed get another chance, with seeds of their own; what they say then stands.
+bool run_second_stage(Stage stage, const Scene& scene, const VerifyOptions& options, const std::atomic<bool>& cancel,
+                      const RunHook& hook, std::vector<PairResult>& results) {
+    std::vector<std::size_t> failed;
+    stage.pairs.clear();
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        if (results[i].verdict.verdict == Verdict::fail) {
+            failed.push_back(i);
+            stage.pairs.push_back(results[i].names);
+        }
+    }
+    if (failed.empty()) {
+        return true;
+    }
+    stage.number = 2;
+    stage.seed += second_stage_seeds;
+    stage.spp = second_stage_spp * results[failed.front()].spp;
+    stage.seconds = 0;
+    stage.limits.alpha *= second_stage_alpha;
+    const std::optional<std::vector<PairResult>> again = run_stage(stage, scene, options, cancel, hook);
+    for (std::size_t i = 0; again && i < failed.size(); ++i) {
+        results[failed[i]] = (*again)[i];
+    }
+    return again.has_value();
+}
+
+}  // namespace
+
+std::optional<SuiteResult> run_suite(const VerifyOptions& options, const std::vector<PairName>& pairs,
+                                     const Scene& scene, std::uint32_t seed, const std::atomic<bool>& cancel,
+                                     const RunHook& hook) {
+    const double start = now();
+    const RenderSettings& settings = options.arguments.request.settings;
+    Stage stage;
+    stage.pairs = pairs;
+    stage.seed = seed;
+    stage.spp = options.spp;
+    stage.seconds = options.seconds * (options.fresh_seeds ? first_stage_time : 1);
+    stage.limits.alpha = options.alpha;
+    stage.limits.max_half_width = options.max_half_width;
+    stage.limits.max_tile_half_width = options.max_tile_half_width;
+    std::optional<std::vector<PairResult>> results = run_stage(stage, scene, options, cancel, hook);
+    if (!results || (options.fresh_seeds && !run_second_stage(stage, scene, options, cancel, hook, *results))) {
+        return std::nullopt;
+    }
+    SuiteResult suite;
+    suite.pairs = std::move(*results);
+    suite.grid = tile_grid(settings.width, settings.height, options.tile);
+    suite.seed = seed;
+    suite.seconds = now() - start;
+    return suite;
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,119 @@
+#include "stats/bias_verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "stats/multiple_testing.h"
+#include "stats/power.h"
+
+namespace diptych {
+
+namespace {
+
+constexpr std::size_t tests_a_pair = 3;
+constexpr double lopsided_share = 0.01;
+constexpr double lopsided_count = 2;
+
+std::string failure(const TileComparison& comparison, std::span<const double> adjusted, double alpha) {
+    if (comparison.unequal > 0) {
+        return fmt::format("{} tiles without any noise differ", comparison.unequal);
+    }
+    if (lopsided_tails(comparison)) {
+        return "the image mean differs";
+    }
+    std::string reason;
+    const char* names[tests_a_pair] = {"the image mean", "the tiles together", "single tiles"};
+    for (std::size_t i = 0; i < tests_a_pair; ++i) {
+        if (adjusted[i] <= alpha) {
+            reason += fmt::format("{}{} differ{}", reason.empty() ? "" : ", ", names[i], i == 0 ? "s" : "");
+        }
+    }
+    return reason;
+}
+
+std::string tail_warning(const TileComparison& comparison) {
+    return fmt::format(
+        "tiles differ, but single runs carry {} of {} tiles on one side and {} on the other: too few samples "
+        "to tell a loss from what was not met yet",
+        std::max(comparison.heavy_a, comparison.heavy_b), comparison.tested,
+        std::min(comparison.heavy_a, comparison.heavy_b));
+}
+
+std::string weakness(const TileComparison& comparison, const VerdictLimits& limits) {
+    if (comparison.half_width_percent > limits.max_half_width) {
+        return fmt::format("the image mean is known to {:.3g} % only, {:.3g} % is wanted",
+                           comparison.half_width_percent, limits.max_half_width);
+    }
+    return fmt::format("half of the tiles are known to {:.3g} % or worse, {:.3g} % is wanted",
+                       comparison.tile_half_width_percent, limits.max_tile_half_width);
+}
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::pass:
+        return "PASS";
+    case Verdict::fail:
+        return "FAIL";
+    default:
+        return "INCONCLUSIVE";
+    }
+}
+
+bool lopsided_tails(const TileComparison& comparison) {
+    const double a = static_cast<double>(comparison.heavy_a);
+    const double b = static_cast<double>(comparison.heavy_b);
+    return std::abs(a - b) > std::max(lopsided_count, lopsided_share * static_cast<double>(comparison.tested));
+}
+
+bool has_power(const TileComparison& comparison, const VerdictLimits& limits) {
+    return comparison.half_width_percent <= limits.max_half_width &&
+           comparison.tile_half_width_percent <= limits.max_tile_half_width;
+}
+
+std::vector<PairVerdict> judge(std::span<const TileComparison> comparisons, const VerdictLimits& limits) {
+    std::vector<double> p;
+    for (const TileComparison& comparison : comparisons) {
+        p.insert(p.end(), {comparison.global_p, comparison.fisher_p, comparison.local_p});
+    }
+    const std::vector<double> adjusted = holm_adjusted(p);
+    std::vector<PairVerdict> verdicts;
+    for (std::size_t i = 0; i < comparisons.size(); ++i) {
+        const TileComparison& comparison = comparisons[i];
+        const std::span<const double> own(&adjusted[i * tests_a_pair], tests_a_pair);
+        PairVerdict verdict;
+        verdict.adjusted_p = *std::min_element(own.begin(), own.end());
+        verdict.min_detectable_percent = minimum_detectable(comparison.standard_error_percent, comparison.freedom,
+                                                            limits.alpha / static_cast<double>(p.size()), limits.power);
+        const double decisive_p = lopsided_tails(comparison) ? own[0] : verdict.adjusted_p;
+        if (decisive_p <= limits.alpha || comparison.unequal > 0) {
+            verdict.verdict = Verdict::fail;
+            verdict.reason = failure(comparison, own, limits.alpha);
+        } else if (verdict.adjusted_p <= limits.alpha) {
+            verdict.reason = tail_warning(comparison);
+        } else if (has_power(comparison, limits)) {
+            verdict.verdict = Verdict::pass;
+            verdict.reason = "no difference, and one would have been seen";
+        } else {
+            verdict.reason = weakness(comparison, limits);
+        }
+        verdicts.push_back(verdict);
+    }
+    return verdicts;
+}
+
+Verdict overall(std::span<const PairVerdict> verdicts) {
+    Verdict worst = Verdict::pass;
+    for (const PairVerdict& verdict : verdicts) {
+        if (verdict.verdict == Verdict::fail) {
+            return Verdict::fail;
+        }
+        worst = verdict.verdict == Verdict::inconclusive ? Verdict::inconclusive : worst;
+    }
+    return worst;
+}
+
+}  // namespace diptych

@@ -1,0 +1,191 @@
+#include "stats/channel_test.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "stats/distributions.h"
+#include "stats/symmetric_matrix.h"
+
+namespace diptych {
+
+namespace {
+
+constexpr double equality_roundings = 8;
+
+/// Sums of `rank` numbers and of their products, over the runs of one side.
+struct Moments {
+    std::array<double, 3> sum{};
+    Matrix3 products{};  // upper triangle
+
+    void add(const double* x, int rank) {
+        for (int i = 0; i < rank; ++i) {
+            const auto row = static_cast<std::size_t>(i);
+            sum[row] += x[i];
+            for (int j = i; j < rank; ++j) {
+                products[row][static_cast<std::size_t>(j)] += x[i] * x[j];
+            }
+        }
+    }
+};
+
+/// Covariance of the mean.
+Matrix3 mean_covariance(const Moments& moments, std::size_t count, std::size_t rank) {
+    const double n = static_cast<double>(count);
+    Matrix3 covariance{};
+    for (std::size_t i = 0; i < rank; ++i) {
+        for (std::size_t j = i; j < rank; ++j) {
+            const double value = (moments.products[i][j] - moments.sum[i] * moments.sum[j] / n) / (n - 1) / n;
+            covariance[i][j] = value;
+            covariance[j][i] = value;
+        }
+    }
+    return covariance;
+}
+
+/// (tr(S M))² + tr((S M)²)
+double trace_terms(const Matrix3& s, const Matrix3& m, std::size_t rank) {
+    double product[3][3] = {};
+    for (std::size_t i = 0; i < rank; ++i) {
+        for (std::size_t j = 0; j < rank; ++j) {
+            for (std::size_t k = 0; k < rank; ++k) {
+                product[i][j] += s[i][k] * m[k][j];
+            }
+        }
+    }
+    double trace = 0;
+    double trace_of_square = 0;
+    for (std::size_t i = 0; i < rank; ++i) {
+        trace += product[i][i];
+        for (std::size_t j = 0; j < rank; ++j) {
+            trace_of_square += product[i][j] * product[j][i];
+        }
+    }
+    return trace * trace + trace_of_square;
+}
+
+double p_of_moments(const Moments& a, const Moments& b, std::size_t count_a, std::size_t count_b, std::size_t rank) {
+    const double n_a = static_cast<double>(count_a);
+    const double n_b = static_cast<double>(count_b);
+    const Matrix3 from_a = mean_covariance(a, count_a, rank);
+    const Matrix3 from_b = mean_covariance(b, count_b, rank);
+    Matrix3 covariance{};
+    for (std::size_t i = 0; i < rank; ++i) {
+        for (std::size_t j = 0; j < rank; ++j) {
+            covariance[i][j] = from_a[i][j] + from_b[i][j];
+        }
+    }
+    Matrix3 inverse{};
+    if (!invert(covariance, static_cast<int>(rank), inverse)) {
+        return 1;
+    }
+    double t_squared = 0;
+    for (std::size_t i = 0; i < rank; ++i) {
+        for (std::size_t j = 0; j < rank; ++j) {
+            const double d_i = a.sum[i] / n_a - b.sum[i] / n_b;
+            const double d_j = a.sum[j] / n_a - b.sum[j] / n_b;
+            t_squared += d_i * inverse[i][j] * d_j;
+        }
+    }
+    const double p = static_cast<double>(rank);
+    const double freedom =
+        (p + p * p) / (trace_terms(from_a, inverse, rank) / (n_a - 1) + trace_terms(from_b, inverse, rank) / (n_b - 1));
+    const double rest = freedom - p + 1;
+    return rest > 0 ? f_upper(t_squared * rest / (freedom * p), p, rest) : 1;
+}
+
+Channels mean_of(std::span<const Channels> runs) {
+    Channels mean{};
+    for (const Channels& run : runs) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            mean[c] += run[c] / static_cast<double>(runs.size());
+        }
+    }
+    return mean;
+}
+
+Matrix3 mean_covariance(std::span<const Channels> runs, const Channels& mean) {
+    Moments moments;
+    for (const Channels& run : runs) {
+        const Channels centred = {run[0] - mean[0], run[1] - mean[1], run[2] - mean[2]};
+        moments.add(centred.data(), 3);
+    }
+    return mean_covariance(moments, runs.size(), 3);
+}
+
+double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+}  // namespace
+
+ChannelRuns channel_runs(std::span<const Channels> a, std::span<const Channels> b) {
+    assert(a.size() >= 2 && b.size() >= 2);
+    const Channels mean_a = mean_of(a);
+    const Channels mean_b = mean_of(b);
+    Matrix3 covariance = mean_covariance(a, mean_a);
+    const Matrix3 from_b = mean_covariance(b, mean_b);
+    Channels difference{};
+    Channels center{};
+    double scale = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        difference[c] = mean_a[c] - mean_b[c];
+        center[c] = 0.5 * (mean_a[c] + mean_b[c]);
+        scale = std::max({scale, std::abs(mean_a[c]), std::abs(mean_b[c])});
+        for (std::size_t k = 0; k < 3; ++k) {
+            covariance[c][k] += from_b[c][k];
+        }
+    }
+    ChannelRuns runs;
+    runs.count_a = a.size();
+    runs.count_b = b.size();
+    const Eigen3 eigen = symmetric_eigen(covariance);
+    const double constant = channel_rounding * scale;
+    std::vector<std::array<double, 3>> directions;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double error = std::sqrt(std::max(0.0, eigen.values[k]));
+        if (error > constant) {
+            std::array<double, 3> direction = eigen.vectors[k];
+            for (double& x : direction) {
+                x /= error;
+            }
+            directions.push_back(direction);
+        } else if (std::abs(dot(eigen.vectors[k], difference)) > equality_roundings * constant) {
+            runs.state = ChannelState::unequal;
+        }
+    }
+    runs.rank = static_cast<int>(directions.size());
+    if (runs.state != ChannelState::unequal && runs.rank > 0) {
+        runs.state = ChannelState::tested;
+    }
+    for (const std::span<const Channels> side : {a, b}) {
+        for (const Channels& run : side) {
+            const Channels centred = {run[0] - center[0], run[1] - center[1], run[2] - center[2]};
+            for (const std::array<double, 3>& direction : directions) {
+                runs.values.push_back(dot(direction, centred));
+            }
+        }
+    }
+    return runs;
+}
+
+double channel_p(const ChannelRuns& runs) {
+    if (runs.state != ChannelState::tested) {
+        return runs.state == ChannelState::equal ? 1 : 0;
+    }
+    std::vector<std::uint8_t> in_a(runs.count_a + runs.count_b, 0);
+    std::fill_n(in_a.begin(), runs.count_a, std::uint8_t{1});
+    return channel_p(runs, in_a);
+}
+
+double channel_p(const ChannelRuns& runs, std::span<const std::uint8_t> in_a) {
+    assert(runs.state == ChannelState::tested && in_a.size() == runs.count_a + runs.count_b);
+    Moments sides[2];
+    const auto rank = static_cast<std::size_t>(runs.rank);
+    for (std::size_t i = 0; i < in_a.size(); ++i) {
+        sides[in_a[i] != 0 ? 0 : 1].add(&runs.values[i * rank], runs.rank);
+    }
+    return p_of_moments(sides[0], sides[1], runs.count_a, runs.count_b, rank);
+}
+
+}  // namespace diptych

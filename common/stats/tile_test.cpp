@@ -1,0 +1,204 @@
+#include "stats/tile_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "error.h"
+#include "stats/distributions.h"
+#include "stats/multiple_testing.h"
+#include "stats/welch.h"
+
+namespace diptych {
+
+namespace {
+
+constexpr double heavy_share = 0.5;
+constexpr double lit_share = 1e-3;
+constexpr double resolved_percent = 1;
+constexpr double dim_channel = 0.01;
+
+double luminance(const Channels& rgb) {
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+/// One number of every run, such as a channel of a tile.
+template <class Pick>
+std::vector<double> series(std::span<const RunMeans> runs, const Pick& pick) {
+    std::vector<double> values;
+    for (const RunMeans& run : runs) {
+        values.push_back(pick(run));
+    }
+    return values;
+}
+
+template <class Pick>
+WelchTest welch(std::span<const RunMeans> a, std::span<const RunMeans> b, const Pick& pick) {
+    return welch_test(series(a, pick), series(b, pick));
+}
+
+template <class Pick>
+double mean_of(std::span<const RunMeans> runs, const Pick& pick) {
+    return summarize(series(runs, pick)).mean;
+}
+
+/// 0/0 is 0: black on both sides.
+double percent(double part, double whole) {
+    return part == 0 ? 0 : 100 * part / std::abs(whole);
+}
+
+double nonzero_mean(double mean_a, double mean_b) {
+    return mean_b != 0 ? mean_b : mean_a;
+}
+
+/// One run holds over half of the sum of squares: for normal runs, one in ten thousand at 32 of them.
+bool is_heavy(const std::vector<double>& values) {
+    const SampleSummary summary = summarize(values);
+    double largest = 0;
+    for (const double value : values) {
+        largest = std::max(largest, (value - summary.mean) * (value - summary.mean));
+    }
+    return largest > heavy_share * summary.variance * (summary.count - 1);
+}
+
+void compare_images(std::span<const RunMeans> a, std::span<const RunMeans> b, double confidence,
+                    TileComparison& result) {
+    std::vector<Channels> images_a;
+    std::vector<Channels> images_b;
+    for (const RunMeans& run : a) {
+        images_a.push_back(run.image);
+    }
+    for (const RunMeans& run : b) {
+        images_b.push_back(run.image);
+    }
+    result.global_p = channel_p(channel_runs(images_a, images_b));
+    double brightest = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const auto pick = [c](const RunMeans& run) { return run.image[c]; };
+        result.mean_a[c] = mean_of(a, pick);
+        result.mean_b[c] = mean_of(b, pick);
+        brightest = std::max(brightest, nonzero_mean(result.mean_a[c], result.mean_b[c]));
+    }
+    const auto image_luminance = [](const RunMeans& run) { return luminance(run.image); };
+    const WelchTest test = welch(a, b, image_luminance);
+    const double whole = nonzero_mean(luminance(result.mean_a), luminance(result.mean_b));
+    const double half_width = confidence_half_width(test, confidence);
+    result.bias_percent = percent(test.difference, whole);
+    result.ci95_percent[0] = percent(test.difference - half_width, whole);
+    result.ci95_percent[1] = percent(test.difference + half_width, whole);
+    result.freedom = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < 3; ++c) {
+        const WelchTest channel = welch(a, b, [c](const RunMeans& run) { return run.image[c]; });
+        const double channel_whole = nonzero_mean(result.mean_a[c], result.mean_b[c]);
+        result.channel_bias_percent[c] = percent(channel.difference, channel_whole);
+        const double width = percent(confidence_half_width(channel, confidence), channel_whole);
+        if (channel_whole >= dim_channel * brightest && width > result.half_width_percent) {
+            result.half_width_percent = width;
+            result.standard_error_percent = percent(channel.standard_error, channel_whole);
+            result.freedom = channel.freedom;
+        }
+    }
+}
+
+/// -2 ln p of every tested tile, for one way to divide the runs.
+double fisher_of(const std::vector<ChannelRuns>& tested, std::span<const std::uint8_t> in_a) {
+    double sum = 0;
+    for (const ChannelRuns& tile : tested) {
+        const double p = channel_p(tile, in_a);
+        sum += fisher_statistic(std::span(&p, 1));
+    }
+    return sum;
+}
+
+double permuted_fisher_p(const std::vector<ChannelRuns>& tested, double observed, const TileTestOptions& options) {
+    if (tested.empty()) {
+        return 1;
+    }
+    if (options.permutations < 2) {
+        return chi_square_upper(observed, 2 * static_cast<double>(tested.size()));
+    }
+    std::vector<std::uint8_t> in_a(tested.front().count_a + tested.front().count_b, 0);
+    std::fill_n(in_a.begin(), tested.front().count_a, std::uint8_t{1});
+    std::mt19937_64 random(options.seed);
+    std::vector<double> sums;
+    for (int i = 0; i < options.permutations; ++i) {
+        std::shuffle(in_a.begin(), in_a.end(), random);
+        sums.push_back(fisher_of(tested, in_a));
+    }
+    const SampleSummary null = summarize(sums);
+    return scaled_chi_square_upper(observed, null.mean, null.variance);
+}
+
+void compare_tiles(std::span<const RunMeans> a, std::span<const RunMeans> b, const TileTestOptions& options,
+                   TileComparison& result) {
+    const double lit = lit_share * std::max(luminance(result.mean_a), luminance(result.mean_b));
+    std::vector<ChannelRuns> tested;
+    std::vector<double> p_values;
+    std::vector<double> lit_half_widths;
+    std::vector<Channels> runs_a(a.size());
+    std::vector<Channels> runs_b(b.size());
+    for (std::size_t tile = 0; tile < a.front().tiles.size(); ++tile) {
+        const auto pick = [tile](const RunMeans& run) { return run.tiles[tile]; };
+        std::transform(a.begin(), a.end(), runs_a.begin(), pick);
+        std::transform(b.begin(), b.end(), runs_b.begin(), pick);
+        ChannelRuns runs = channel_runs(runs_a, runs_b);
+        TileOutcome outcome;
+        outcome.state = runs.state;
+        outcome.p = channel_p(runs);
+        const auto tile_luminance = [tile](const RunMeans& run) { return luminance(run.tiles[tile]); };
+        const std::vector<double> values_a = series(a, tile_luminance);
+        const std::vector<double> values_b = series(b, tile_luminance);
+        const double whole = nonzero_mean(summarize(values_a).mean, summarize(values_b).mean);
+        outcome.lit = whole > lit;
+        outcome.half_width_percent =
+            percent(confidence_half_width(welch_test(values_a, values_b), options.confidence), whole);
+        if (outcome.lit) {
+            lit_half_widths.push_back(outcome.half_width_percent);
+        }
+        result.min_p = std::min(result.min_p, outcome.p);
+        if (outcome.state == ChannelState::tested) {
+            result.heavy_a += is_heavy(values_a) ? 1 : 0;
+            result.heavy_b += is_heavy(values_b) ? 1 : 0;
+            p_values.push_back(outcome.p);
+            tested.push_back(std::move(runs));
+        }
+        result.unequal += outcome.state == ChannelState::unequal ? 1 : 0;
+        result.tiles.push_back(outcome);
+    }
+    result.tested = tested.size();
+    result.fisher_p = permuted_fisher_p(tested, fisher_statistic(p_values), options);
+    result.local_p = sidak_adjusted(result.min_p, static_cast<double>(std::max<std::size_t>(result.tested, 1)));
+    if (!lit_half_widths.empty()) {
+        std::sort(lit_half_widths.begin(), lit_half_widths.end());
+        result.tile_half_width_percent = lit_half_widths[lit_half_widths.size() / 2];
+        const auto resolved = std::upper_bound(lit_half_widths.begin(), lit_half_widths.end(), resolved_percent);
+        result.resolved_share =
+            static_cast<double>(resolved - lit_half_widths.begin()) / static_cast<double>(lit_half_widths.size());
+    }
+}
+
+void check_runs(std::span<const RunMeans> a, std::span<const RunMeans> b) {
+    if (a.size() < 2 || b.size() < 2) {
+        throw Error("a test of bias wants two runs a side or more");
+    }
+    for (const std::span<const RunMeans> side : {a, b}) {
+        for (const RunMeans& run : side) {
+            if (run.tiles.size() != a.front().tiles.size()) {
+                throw Error("a test of bias wants the same tiles in all runs");
+            }
+        }
+    }
+}
+
+}  // namespace
+
+TileComparison compare_runs(std::span<const RunMeans> a, std::span<const RunMeans> b, const TileTestOptions& options) {
+    check_runs(a, b);
+    TileComparison result;
+    compare_images(a, b, options.confidence, result);
+    compare_tiles(a, b, options, result);
+    return result;
+}
+
+}  // namespace diptych

@@ -1,0 +1,71 @@
+// Two sets of renders with seeds of their own: have they one expectation, in the whole image and in every tile of it?
+// (After Jung, Hanika and Dachsbacher 2020, "Detecting Bias in Monte Carlo Renderers using Welch's t-test".)
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "stats/channel_test.h"
+
+namespace diptych {
+
+/// One run: a render with a seed of its own. Samples within a run may depend on one another (a Sobol' set does); runs
+/// do not, so the run's mean is the unit of all that follows, and there is no trimming of it. Linear radiance.
+struct RunMeans {
+    Channels image{};
+    std::vector<Channels> tiles;  // in any order that all runs share
+};
+
+struct TileTestOptions {
+    double confidence = 0.95;  // of the intervals
+    int permutations = 400;    // of the runs, for the null distribution of Fisher's sum; below 2, chi-square as it is
+    std::uint32_t seed = 1;    // of those
+};
+
+struct TileOutcome {
+    ChannelState state = ChannelState::equal;
+    double p = 1;                   // channel_p
+    double half_width_percent = 0;  // of the luminance's difference, relative to side b (a where b is black)
+    bool lit = false;               // brighter than a thousandth of the image
+};
+
+struct TileComparison {
+    Channels mean_a{};
+    Channels mean_b{};
+
+    // Image mean. Percentages of side b's; b's own error is of second order and left out.
+    double bias_percent = 0;  // luminance
+    double ci95_percent[2] = {0, 0};
+    Channels channel_bias_percent{};
+    // The widest of the channels, those below 1 % of the brightest left aside, so that no hue hides behind green:
+    double half_width_percent = 0;
+    double standard_error_percent = 0;
+    double freedom = 0;
+    double global_p = 1;  // channel_p
+
+    // Tiles.
+    double fisher_p = 1;      // of all tested tiles together
+    double min_p = 1;         // least of all, as it is
+    double local_p = 1;       // that, corrected for their number (Šidák)
+    std::size_t tested = 0;   // tiles that vary
+    std::size_t unequal = 0;  // constant tiles that differ: bias without doubt
+    std::size_t heavy_a =
+        0;  // tested tiles in which one run of that side holds over half of its variance: too few samples to see
+    std::size_t heavy_b = 0;             //   what is rare there
+    double tile_half_width_percent = 0;  // median over the lit tiles
+    double resolved_share = 1;           // lit tiles of at most 1 %
+    std::vector<TileOutcome> tiles;
+};
+
+/// At least two runs a side, all with the same tiles; Error otherwise.
+///
+/// Fisher's sum of the tiles' p-values has its mean and variance from the same sum over random exchanges of runs
+/// between the sides, and is judged as a scaled chi-square. Under equal distributions these exchanges change nothing
+/// (Fisher 1935), under equal means alone the studentised tiles keep them valid for many runs (Janssen 1997); so heavy
+/// tails, tiles that depend on one another and the discreteness of rare events, which all make p-values a little uneven
+/// and add up over a thousand tiles, are in the null distribution too.
+TileComparison compare_runs(std::span<const RunMeans> a, std::span<const RunMeans> b,
+                            const TileTestOptions& options = {});
+
+}  // namespace diptych
