@@ -106,10 +106,10 @@ Image p_histogram(const PairResult& pair) {
     const double expected = static_cast<double>(pair.comparison.tested) / bins;
     const double most = std::max({1.0, 2 * expected, *std::max_element(counts.begin(), counts.end())});
     const auto level = [&](double count) { return static_cast<int>(std::lround(count / most * height)); };
-    const std::string highest = fmt::format("{:.0f}", most);
+    const std::string highest = fmt::format("{:.3g}", most);
     const std::string title = caption(pair);
     const int left =
-        2 * margin + std::max(text_width(highest, text_scale), text_width(fmt::format("{:.0f}", expected), text_scale));
+        2 * margin + std::max(text_width(highest, text_scale), text_width(fmt::format("{:.3g}", expected), text_scale));
     const int top = margin + 2 * line_height;
     const int bottom = top + height;
     Image figure = make_image(std::max(left + bins * bar, margin + text_width(title, text_scale)) + 2 * margin,
@@ -126,7 +126,7 @@ Image p_histogram(const PairResult& pair) {
     draw_rectangle(figure, left, top, 2, height, ink);
     draw_text(figure, margin, top, highest, text_scale, ink);
     if (level(expected) > 0) {
-        draw_text(figure, margin, bottom - level(expected) - 7, fmt::format("{:.0f}", expected), text_scale, ink);
+        draw_text(figure, margin, bottom - level(expected) - 7, fmt::format("{:.3g}", expected), text_scale, ink);
     }
     for (const auto& [p, text] : {std::pair{0.0, "0"}, {0.5, "0.5"}, {1.0, "1"}}) {
         const int x = left + static_cast<int>(p * bins * bar);

@@ -18,7 +18,7 @@ constexpr double lopsided_count = 2;
 
 std::string failure(const TileComparison& comparison, std::span<const double> adjusted, double alpha) {
     if (comparison.unequal > 0) {
-        return fmt::format("{} tiles without any noise differ", comparison.unequal);
+        return fmt::format("{} tiles without any noise differ, or are not finite", comparison.unequal);
     }
     if (lopsided_tails(comparison)) {
         return "the image mean differs";
@@ -70,7 +70,7 @@ bool lopsided_tails(const TileComparison& comparison) {
 }
 
 bool has_power(const TileComparison& comparison, const VerdictLimits& limits) {
-    return comparison.half_width_percent <= limits.max_half_width &&
+    return std::isfinite(comparison.bias_percent) && comparison.half_width_percent <= limits.max_half_width &&
            comparison.tile_half_width_percent <= limits.max_tile_half_width;
 }
 

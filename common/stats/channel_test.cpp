@@ -139,6 +139,11 @@ ChannelRuns channel_runs(std::span<const Channels> a, std::span<const Channels> 
     ChannelRuns runs;
     runs.count_a = a.size();
     runs.count_b = b.size();
+    const double total = covariance[0][0] + covariance[1][1] + covariance[2][2] + dot(center, center);
+    if (!std::isfinite(total)) {
+        runs.state = ChannelState::unequal;
+        return runs;
+    }
     const Eigen3 eigen = symmetric_eigen(covariance);
     const double constant = channel_rounding * scale;
     std::vector<std::array<double, 3>> directions;

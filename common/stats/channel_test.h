@@ -14,7 +14,7 @@ using Channels = std::array<double, 3>;
 enum class ChannelState {
     tested,
     equal,    // nothing varies, and the sides agree to rounding
-    unequal,  // something does not vary, and the sides disagree there
+    unequal,  // something does not vary, and the sides disagree there; or a value is not finite
 };
 
 /// A direction of colour whose difference has a standard error below `rounding` times the brightest mean does not vary:

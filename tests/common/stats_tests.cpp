@@ -92,6 +92,11 @@ TEST_CASE("What does not vary is equal or not, but for rounding") {
     CHECK(channel_runs(black, constant).state == ChannelState::unequal);
     CHECK(p_of(constant, different) == 0);
     CHECK(p_of(constant, constant) == 1);
+    for (const double bad : {HUGE_VAL, std::nan("")}) {
+        std::vector<Channels> broken = in_channels(first, {1, 1, 1});
+        broken[3][1] = bad;
+        CHECK(channel_runs(broken, broken).state == ChannelState::unequal);
+    }
     // Red varies alike, blue is constant and differs.
     std::vector<Channels> a = in_channels(first, {1, 0, 0});
     std::vector<Channels> b = a;

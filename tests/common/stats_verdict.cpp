@@ -1,0 +1,117 @@
+// Verdicts, and the way from a film to its tiles.
+#include "catch.h"
+#include "error.h"
+#include "render/film_tiles.h"
+#include "stats/bias_verdict.h"
+
+using namespace diptych;
+
+namespace {
+
+TileComparison comparison_with(double global_p, double half_width, double tile_half_width) {
+    TileComparison comparison;
+    comparison.global_p = global_p;
+    comparison.half_width_percent = half_width;
+    comparison.standard_error_percent = half_width / 2;
+    comparison.freedom = 62;
+    comparison.tile_half_width_percent = tile_half_width;
+    comparison.tested = 100;
+    return comparison;
+}
+
+Verdict verdict_on(const TileComparison& comparison) {
+    return judge(std::span(&comparison, 1), {}).front().verdict;
+}
+
+}  // namespace
+
+TEST_CASE("PASS wants power, FAIL does not") {
+    CHECK(verdict_on(comparison_with(0.3, 0.09, 0.9)) == Verdict::pass);
+    CHECK(verdict_on(comparison_with(0.3, 0.11, 0.9)) == Verdict::inconclusive);
+    CHECK(verdict_on(comparison_with(0.3, 0.09, 1.1)) == Verdict::inconclusive);
+    CHECK(verdict_on(comparison_with(3e-4, 5, 50)) == Verdict::fail);
+    CHECK(verdict_on(comparison_with(4e-4, 0.09, 0.9)) == Verdict::pass);  // Holm: three tests
+    TileComparison unequal = comparison_with(1, 0, 0);
+    unequal.unequal = 1;
+    CHECK(verdict_on(unequal) == Verdict::fail);
+}
+
+TEST_CASE("Tiles alone fail no pair whose tails are lopsided, the image mean does") {
+    TileComparison comparison = comparison_with(0.3, 0.01, 0.1);
+    comparison.fisher_p = 1e-9;
+    CHECK(verdict_on(comparison) == Verdict::fail);
+    comparison.heavy_a = 30;
+    CHECK(verdict_on(comparison) == Verdict::inconclusive);
+    comparison.heavy_b = 29;  // on both sides: no harm
+    CHECK(verdict_on(comparison) == Verdict::fail);
+    comparison.heavy_b = 0;
+    comparison.global_p = 1e-5;
+    CHECK(verdict_on(comparison) == Verdict::fail);
+}
+
+TEST_CASE("Pairs are judged together") {
+    std::vector<TileComparison> comparisons(10, comparison_with(0.5, 0.05, 0.5));
+    comparisons[3].global_p = 5e-5;  // 30 tests: not below 1e-3 / 30
+    std::vector<PairVerdict> verdicts = judge(comparisons, {});
+    CHECK(verdicts[3].adjusted_p == Approx(30 * 5e-5));
+    CHECK(overall(verdicts) == Verdict::pass);
+    comparisons[3].global_p = 3e-5;
+    comparisons[7].half_width_percent = 1;
+    verdicts = judge(comparisons, {});
+    CHECK(verdicts[3].verdict == Verdict::fail);
+    CHECK(verdicts[7].verdict == Verdict::inconclusive);
+    CHECK(overall(verdicts) == Verdict::fail);
+    verdicts.erase(verdicts.begin() + 3);
+    CHECK(overall(verdicts) == Verdict::inconclusive);
+    // More pairs: each has to be clearer, so the least detectable bias grows.
+    CHECK(verdicts[0].min_detectable_percent >
+          judge(std::span(comparisons.data(), 1), {}).front().min_detectable_percent);
+}
+
+TEST_CASE("Constant tiles that agree are left aside, and disagreement fails") {
+    const auto runs = [](double tile) {
+        std::vector<RunMeans> result;
+        for (int i = 0; i < 4; ++i) {
+            const double noise = 0.01 * i;
+            result.push_back({{1, 1, 1}, {{tile, tile, tile}, {0, 0, 0}, {1 + noise, 1, 1}}});
+        }
+        return result;
+    };
+    const TileComparison same = compare_runs(runs(2), runs(2));
+    CHECK(same.tested == 1);
+    CHECK(same.unequal == 0);
+    CHECK(same.global_p == 1);
+    CHECK_FALSE(same.tiles[1].lit);
+    const TileComparison other = compare_runs(runs(2), runs(2.01));
+    CHECK(other.unequal == 1);
+    CHECK(other.local_p == 0);
+    CHECK_THROWS_AS(compare_runs(std::span<const RunMeans>(runs(2)).first(1), runs(2)), Error);
+}
+
+TEST_CASE("A film becomes the means of its tiles, the last ones cut") {
+    Film film;
+    film.width = 5;
+    film.height = 3;
+    film.pixels.resize(15);
+    for (std::size_t i = 0; i < 15; ++i) {
+        const float x = static_cast<float>(i % 5);
+        const float y = static_cast<float>(i / 5);
+        shared::film_add(film.pixels[i], {x, y, 1}, 1);
+        shared::film_add(film.pixels[i], {x + 2, y, 1}, 1);
+    }
+    CHECK(tile_grid(5, 3, 2).columns == 3);
+    CHECK(tile_grid(5, 3, 2).rows == 2);
+    const RunMeans means = tile_means(film, 2);
+    REQUIRE(means.tiles.size() == 6);
+    CHECK(means.tiles[0] == Channels{1.5, 0.5, 1});
+    CHECK(means.tiles[2] == Channels{5, 0.5, 1});
+    CHECK(means.tiles[5] == Channels{5, 2, 1});
+    CHECK(means.image[0] == Approx(3));
+    CHECK(means.image[1] == Approx(1));
+    RunMeans more = means;
+    more.image[0] = 6;
+    more.tiles[0][0] = 4.5;
+    const RunMeans merged = merge_means(means, 2, more, 4);
+    CHECK(merged.image[0] == Approx(5));
+    CHECK(merged.tiles[0][0] == Approx(3.5));
+}
