@@ -132,8 +132,9 @@ void add_verify(CLI::App& app, Run& run) {
         ->delimiter(',')
         ->capture_default_str();
     command
-        ->add_option("--against", options->against,
-                     "Reference: BACKEND, under the same integrator, or BACKEND/INTEGRATOR for all")
+        ->add_option(
+            "--against", options->against,
+            "Reference: BACKEND, under the same integrator, or BACKEND/INTEGRATOR for all; or oracle, or oracle/MODE")
         ->capture_default_str();
     command->add_option("--runs", options->runs, "Renders a side")->check(CLI::Range(2, 4096))->capture_default_str();
     CLI::Option* spp = command->add_option("--spp", options->spp, "Samples a pixel of each run")

@@ -30,15 +30,16 @@ struct VerifyOptions {
     bool json = false;
 };
 
-/// One panel under one integrator.
+/// One panel under one integrator, or the oracle, which heeds no integrator, in one of its modes.
 struct SideName {
     std::string backend;
     Integrator integrator = Integrator::path;
+    std::string oracle_mode = "bsdf";
 
     bool operator==(const SideName&) const = default;
 };
 
-/// "cpu/path".
+/// "cpu/path", "oracle/bsdf".
 std::string text_of(const SideName& side);
 
 struct PairName {
@@ -47,8 +48,8 @@ struct PairName {
 };
 
 /// Every backend with every integrator against the reference: "BACKEND" is that backend under the same integrator,
-/// "BACKEND/INTEGRATOR" one and the same reference for all. Throws Error for unknown names, and for options that no
-/// backend among them would heed.
+/// "BACKEND/INTEGRATOR" one and the same reference for all; the oracle, "oracle" or "oracle/MODE", is rendered once for
+/// all. Throws Error for unknown names, and for options that no backend among them would heed.
 std::vector<PairName> plan_pairs(const VerifyOptions& options);
 
 }  // namespace diptych::app

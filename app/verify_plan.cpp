@@ -4,6 +4,7 @@
 
 #include "backend.h"
 #include "error.h"
+#include "oracle_renderer/oracle_renderer.h"
 #include "render/settings_names.h"
 #include "verify_options.h"
 
@@ -49,7 +50,7 @@ void check_backend_options(const VerifyOptions& options, const std::vector<PairN
 }  // namespace
 
 std::string text_of(const SideName& side) {
-    return fmt::format("{}/{}", side.backend, name_of(side.integrator));
+    return fmt::format("{}/{}", side.backend, side.backend == "oracle" ? side.oracle_mode : name_of(side.integrator));
 }
 
 std::vector<PairName> plan_pairs(const VerifyOptions& options) {
@@ -58,14 +59,22 @@ std::vector<PairName> plan_pairs(const VerifyOptions& options) {
     const std::size_t slash = options.against.find('/');
     const std::string reference = options.against.substr(0, slash);
     check_backend("--against", reference);
+    const std::string choice = slash == std::string::npos ? "" : options.against.substr(slash + 1);
     std::vector<PairName> pairs;
     for (const std::string& backend : options.backends) {
         check_backend("--backends", backend);
         for (const std::string& integrator : options.integrators) {
             PairName pair;
-            pair.a = {backend, integrator_from_name(integrator)};
-            pair.b = {reference, slash == std::string::npos ? pair.a.integrator
-                                                            : integrator_from_name(options.against.substr(slash + 1))};
+            pair.a.backend = backend;
+            pair.b.backend = reference;
+            const Integrator typed = integrator_from_name(integrator);
+            pair.a.integrator = backend == "oracle" ? Integrator::path : typed;
+            if (reference == "oracle") {
+                pair.b.oracle_mode = slash == std::string::npos ? pair.b.oracle_mode : choice;
+                oracle_mode_from_name(pair.b.oracle_mode);
+            } else {
+                pair.b.integrator = slash == std::string::npos ? typed : integrator_from_name(choice);
+            }
             pairs.push_back(pair);
         }
     }

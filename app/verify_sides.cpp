@@ -11,6 +11,7 @@ VerifySide::VerifySide(const SideName& name, const Scene& scene, const VerifyOpt
     RenderRequest request = options.arguments.request;
     request.backend = name.backend;
     request.settings.integrator = name.integrator;
+    request.oracle_mode = name.oracle_mode;
     request.settings.seed = first_seed;
     request.settings.sample_count = sample_count;
     if (name.backend == "vulkan") {

@@ -109,6 +109,13 @@ TEST_CASE("verify compares integrators with one reference", "[app]") {
     CHECK(json.at("pairs")[1].at("a") == "cpu/direct");
     CHECK(json.at("pairs")[1].at("b") == "cpu/path");
     CHECK(json.at("pairs")[0].at("seed_b") == json.at("pairs")[1].at("seed_b"));  // rendered once
+    const ProcessResult judged =
+        verify(folder, scene, with(small, {"--integrators", "brdf,path", "--against", "oracle", "--json"}));
+    INFO(judged.err);
+    REQUIRE(judged.exit_code == 0);
+    const auto by_oracle = nlohmann::json::parse(judged.out);
+    CHECK(by_oracle.at("pairs")[1].at("b") == "oracle/bsdf");
+    CHECK(by_oracle.at("pairs")[0].at("seed_b") == by_oracle.at("pairs")[1].at("seed_b"));
 }
 
 TEST_CASE("verify keeps to its time, and fresh seeds can be repeated", "[app]") {
@@ -141,7 +148,8 @@ TEST_CASE("verify refuses what it cannot compare", "[app]") {
     };
     refused({"--integrators", "bdpt"}, {"bdpt", "brdf, direct, path"});
     refused({"--integrators", "path,path"}, {"--integrators", "path twice"});
-    refused({"--against", "metal"}, {"--against metal", "cpu, vulkan"});
+    refused({"--against", "oracle/bdpt"}, {"bdpt", "bsdf, hemisphere, area"});
+    refused({"--against", "metal"}, {"--against metal", "cpu, vulkan, oracle"});
     refused({"--against", "cpu/bdpt"}, {"bdpt"});
     check_refusal(run_diptych(folder, {"verify", scene, "--backends", "cpu,metal"}), 2,
                   {"--backends metal", "cpu, vulkan"});
