@@ -57,7 +57,7 @@ CLI::Validator non_negative_number() {
 
 void add_integrator_option(CLI::App& command, RenderArguments& arguments) {
     arguments.panel_options.push_back(
-        command.add_option("--integrator", arguments.integrator, "brdf, direct or path; not for the oracle")
+        command.add_option("--integrator", arguments.integrator, "brdf, direct, path, ris or restir; not for the oracle")
             ->capture_default_str());
 }
 
@@ -87,6 +87,7 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
         ->allow_extra_args(false);
     arguments.panel_options.push_back(command.add_flag(
         "--generic", request.settings.generic, "Leave nothing out that the scene does not need; same image"));
+    add_resampling_options(command, arguments);
 }
 
 void add_backend_options(CLI::App& command, RenderArguments& arguments) {
@@ -128,6 +129,7 @@ void resolve_names(RenderArguments& arguments) {
     settings.brdf = brdf_from_name(arguments.brdf);
     settings.sampler = sampler_from_name(arguments.sampler);
     settings.mis = mis_from_name(arguments.mis);
+    resolve_resampling_names(arguments);
     if (request.backend != "cpu" && request.backend != "vulkan" && request.backend != "oracle") {
         throw Error(fmt::format("--backend {}: there are only cpu, vulkan, oracle", request.backend));
     }

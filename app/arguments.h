@@ -17,6 +17,8 @@ struct RenderArguments {
     std::string brdf = "ggx";
     std::string sampler = "sobol";
     std::string mis = "power";
+    std::string resampling_mis = "pairwise";
+    std::string resampling_visibility = "shading";
     std::string size;
     std::vector<CLI::Option*> panel_options;  // those that mean nothing to the oracle
     CLI::Option* oracle_option = nullptr;     // --oracle-mode
@@ -40,6 +42,10 @@ void add_oracle_option(CLI::App& command, RenderArguments& arguments);
 
 /// Throws Error where the mode is unknown, stands without the oracle, or an option stands with it that means nothing to it.
 void resolve_oracle_mode(const RenderArguments& arguments);
+
+/// How ris and restir resample; add_scene_options and resolve_names call these.
+void add_resampling_options(CLI::App& command, RenderArguments& arguments);
+void resolve_resampling_names(RenderArguments& arguments);
 
 /// Names to values, and options that contradict the backend refused. Throws Error naming the option.
 void resolve_names(RenderArguments& arguments);

@@ -31,6 +31,21 @@ FN void camera_ray(IN(Camera) c, vec2 film, vec2 lens, bool thin_lens, bool orth
     direction = normalize(toward);
 }
 
+/// Where the camera sees a point through the middle of its lens: a film point in [0, 1]^2, y down. False where it is behind.
+FN bool camera_project(IN(Camera) c, vec3 position, OUT(vec2) film) {
+    vec3 toward = position - c.origin;
+    float along = dot(toward, c.forward);
+    film = vec2(0.0f, 0.0f);
+    if (!(along > 0.0f)) {
+        return false;
+    }
+    float scale = c.kind == CAMERA_ORTHOGRAPHIC ? 1.0f : 1.0f / along;
+    float x = scale * dot(toward, c.right) / dot(c.right, c.right);
+    float y = scale * dot(toward, c.up) / dot(c.up, c.up);
+    film = vec2(0.5f + 0.5f * x, 0.5f - 0.5f * y);
+    return true;
+}
+
 SHARED_END
 
 #endif

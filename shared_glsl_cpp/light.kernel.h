@@ -75,14 +75,14 @@ FN float pdf_environment(vec3 direction) {
     return constants.environment.pmf * (0.25f * INV_PI);
 }
 
-FN LightSample sample_environment(IN(Sampler) random, uint dimension, vec2 u) {
+/// `more` are two random words for the map's alias table. Without its radiance.
+FN LightSample sample_environment_direction(uvec2 more, vec2 u) {
     LightSample s = no_light();
     s.distant = true;
     if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
         uvec2 size = constants.environment.size;
-        uvec2 bits = sample_bits_2d(random, dimension + DIMENSION_ENVIRONMENT);
-        uint column = alias_column(bits.x, size.x * size.y);
-        uint texel = alias_pick(load_environment_table(column), column, bits.y);
+        uint column = alias_column(more.x, size.x * size.y);
+        uint texel = alias_pick(load_environment_table(column), column, more.y);
         float x = (float(texel % size.x) + u.x) / float(size.x);
         float y = (float(texel / size.x) + u.y) / float(size.y);
         s.direction = environment_direction(vec2(x, y), constants.environment.rotation);
@@ -92,6 +92,15 @@ FN LightSample sample_environment(IN(Sampler) random, uint dimension, vec2 u) {
         s.direction = sample_uniform_sphere(u);
         s.pdf = pdf_environment(s.direction);
     }
+    return s;
+}
+
+FN LightSample sample_environment(IN(Sampler) random, uint dimension, vec2 u) {
+    uvec2 more = uvec2(0u, 0u);
+    if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
+        more = sample_bits_2d(random, dimension + DIMENSION_ENVIRONMENT);
+    }
+    LightSample s = sample_environment_direction(more, u);
     s.radiance = environment_radiance(s.direction);
     return s;
 }
@@ -146,9 +155,8 @@ FN LightSample sample_emitter(uint id, vec3 reference, vec2 u) {
 
 // Punctual lights (KHR_lights_punctual)
 
-FN LightSample sample_punctual(uint index, vec3 reference) {
+FN LightSample see_punctual(IN(PunctualLight) light, vec3 reference) {
     LightSample s = no_light();
-    LOCAL(PunctualLight) light = load_punctual_lights(index);
     s.delta = true;
     s.pdf = light.pmf;
     if (light.type == PUNCTUAL_DIRECTIONAL) {
@@ -186,7 +194,7 @@ FN LightSample sample_light(vec3 reference, IN(FourPairs) draws, IN(Sampler) ran
     }
     id -= constants.emissive_triangle_count;
     if (feature(FEATURE_PUNCTUAL) && id < constants.punctual_light_count) {
-        return sample_punctual(id, reference);
+        return see_punctual(load_punctual_lights(id), reference);
     }
     return sample_environment(random, dimension, u);
 }

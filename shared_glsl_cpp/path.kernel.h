@@ -5,7 +5,7 @@
 #define PATH_KERNEL_H
 
 #include "alpha.kernel.h"
-#include "light.kernel.h"
+#include "light_point.kernel.h"
 
 /// One sample of one pixel.
 struct PathSample {
@@ -29,21 +29,21 @@ FN uint ray_alpha_key(IN(Sampler) random, uint ray) {
 
 /// Weight of finding a light by sampling the material with density `pdf` where light sampling had density `pdf_light`.
 FN float bsdf_sampling_weight(float pdf, float pdf_light) {
-    if (constants.integrator == INTEGRATOR_PATH) {
+    if (constants.integrator >= INTEGRATOR_PATH) {
         return MUTANT(MIS_ONE_AT_HIT, mis_weight(constants.mis, pdf, pdf_light), 1.0f);
     }
     return constants.integrator == INTEGRATOR_BRDF ? 1.0f : 0.0f;
 }
 
 FN float light_sampling_weight(IN(LightSample) light, float pdf) {
-    if (light.delta || constants.integrator != INTEGRATOR_PATH) {
+    if (light.delta || constants.integrator < INTEGRATOR_PATH) {
         return 1.0f;
     }
     return MUTANT(MIS_ONE_AT_LIGHT, mis_weight(constants.mis, light.pdf, pdf), 1.0f);
 }
 
 /// Whether a ray that found light by sampling the material, from a vertex that could also sample lights, needs the light's pdf.
-FN bool needs_light_pdf() { return feature(FEATURE_LIGHT_SAMPLING) && constants.integrator == INTEGRATOR_PATH; }
+FN bool needs_light_pdf() { return feature(FEATURE_LIGHT_SAMPLING) && constants.integrator >= INTEGRATOR_PATH; }
 
 /// Density with which `reference` would have sampled this point of a surface as a light, from the hit's ids.
 FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
@@ -91,6 +91,24 @@ FN DirectLight sample_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) b
     return direct;
 }
 
+/// Light from a point that resampling chose, weighed by its W.
+FN DirectLight resampled_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) bsdf, IN(SeenBsdf) seen,
+                                      IN(Reservoir) chosen) {
+    DirectLight direct = no_direct_light();
+    if (!(chosen.weight > 0.0f)) {
+        return direct;
+    }
+    SeenLight light = see_light_point(chosen.point, position, MOMENT_CURRENT);
+    BsdfValue f = surface_bsdf_eval_pdf(bsdf, seen, light.direction, features());
+    direct.radiance = f.value * light.radiance * (light.measure * chosen.weight);
+    direct.direction = light.distant ? light.direction : light.end - origin;
+    direct.t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
+    return direct;
+}
+
+/// Whether the first vertex takes its direct light, all of it, from a reservoir.
+FN bool resamples_first_vertex() { return feature(FEATURE_RESAMPLING) && constants.integrator >= INTEGRATOR_RIS; }
+
 /// A path on its way: the ray it goes on along and what it has gathered.
 struct PathState {
     Sampler random;
@@ -104,6 +122,8 @@ struct PathState {
     bool goes_on;
     uint depth;            // scattering events so far
     DirectLight direct;    // sampled at the last vertex, not yet tested for visibility
+    Reservoir reservoir;   // of the first vertex, where light is resampled
+    bool light_is_complete;  // at the last vertex: what the next ray finds has been counted, unless it is the only strategy
 };
 
 FN PathState begin_path(uvec2 pixel, uint sample_index) {
@@ -116,8 +136,13 @@ FN PathState begin_path(uvec2 pixel, uint sample_index) {
     path.found.first_hit.depth = 0.0f;
 
     vec2 jitter = sample_2d(path.random, DIMENSION_FILM);
-    vec2 film = vec2((float(pixel.x) + jitter.x) / float(constants.size.x),
-                     (float(pixel.y) + jitter.y) / float(constants.size.y));
+    uvec2 place = pixel;
+    uvec2 size = constants.size;
+    if (feature(FEATURE_RESAMPLING) && constants.atlas_tile != 0u) {
+        size = uvec2(constants.atlas_tile, constants.atlas_tile);
+        place = uvec2(pixel.x % size.x, pixel.y % size.y);
+    }
+    vec2 film = vec2((float(place.x) + jitter.x) / float(size.x), (float(place.y) + jitter.y) / float(size.y));
     vec2 lens = vec2(0.5f, 0.5f);
     if (feature(FEATURE_THIN_LENS)) {
         lens = sample_2d(path.random, DIMENSION_LENS);
@@ -131,11 +156,16 @@ FN PathState begin_path(uvec2 pixel, uint sample_index) {
     path.goes_on = true;
     path.depth = 0u;
     path.direct = no_direct_light();
+    path.reservoir = empty_reservoir();
+    path.light_is_complete = false;
     return path;
 }
 
 /// Light from infinity, found by a ray that left the scene.
 FN void add_environment(INOUT(PathState) path) {
+    if (path.light_is_complete && !path.only_strategy) {
+        return;
+    }
     vec3 radiance = environment_radiance(path.direction);
     if (!path.only_strategy) {
         float pdf_light = needs_light_pdf() ? pdf_environment(path.direction) : 0.0f;
@@ -146,7 +176,8 @@ FN void add_environment(INOUT(PathState) path) {
 
 /// Light that the surface hit emits toward the path.
 FN void add_emission(INOUT(PathState) path, IN(Surface) surface, IN(Material) material) {
-    bool emits = feature(FEATURE_EMISSIVE) && (material.flags & MATERIAL_EMISSIVE) != 0u;
+    bool emits = feature(FEATURE_EMISSIVE) && (material.flags & MATERIAL_EMISSIVE) != 0u &&
+                 (path.only_strategy || !path.light_is_complete);
     if (emits && (dot(surface.normal, path.direction) < 0.0f || (material.flags & MATERIAL_DOUBLE_SIDED) != 0u)) {
         float weight = 1.0f;
         if (!path.only_strategy) {
@@ -198,7 +229,10 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     path.origin = offset_ray(surface.position, bsdf.geometric_normal);  // nothing is scattered through the surface
     uint dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
     FourPairs draws = sample_bits_four_pairs(path.random, dimension);
-    if (feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features())) {
+    path.light_is_complete = depth == 0u && resamples_first_vertex();
+    if (path.light_is_complete) {
+        path.direct = resampled_direct_light(surface.position, path.origin, bsdf, seen, path.reservoir);
+    } else if (feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features())) {
         path.direct = sample_direct_light(surface.position, path.origin, bsdf, seen, draws, path.random, dimension);
         path.direct.radiance = path.throughput * path.direct.radiance;
     }
@@ -209,7 +243,8 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     path.throughput = path.throughput * next.weight;
     path.only_strategy = next.delta != 0u;
     bool goes_on = next.pdf > 0.0f && max_component(path.throughput) > 0.0f;
-    if (constants.integrator == INTEGRATOR_DIRECT && !path.only_strategy && depth + 1u == constants.max_depth) {
+    bool only_lights_left = !path.only_strategy && depth + 1u == constants.max_depth;
+    if (only_lights_left && (constants.integrator == INTEGRATOR_DIRECT || path.light_is_complete)) {
         goes_on = false;  // the last ray could only find light that has been sampled
     }
     float survival = survival_probability(path.throughput, depth);

@@ -35,6 +35,12 @@ FN Sampler make_sampler(uvec2 pixel, uint sample_index, uint seed, uint kind, ui
     return s;
 }
 
+/// Four independent words of a dimension that is not drawn by the pair.
+FN uvec4 independent_words(IN(Sampler) s, uint dimension) {
+    uvec4 v = pcg4d(uvec4(s.key.x, s.key.y, s.sample_index, dimension));
+    return v;
+}
+
 FN uvec2 independent_bits_2d(IN(Sampler) s, uint dimension) {
     uvec4 v = pcg4d(uvec4(s.key.x, s.key.y, s.sample_index, dimension));
     return uvec2(v.z, v.w);

@@ -24,7 +24,10 @@
     X(PunctualLight, punctual_lights)       \
     X(AliasEntry, light_table)              \
     X(vec4, environment_texels)             \
-    X(AliasEntry, environment_table)
+    X(AliasEntry, environment_table)        \
+    X(Instance, previous_instances)         \
+    X(EmissiveTriangle, previous_emissive_triangles) \
+    X(PunctualLight, previous_punctual_lights)
 
 // Those that differ between two moments of a scene that moves.
 #define MOVING_BUFFERS(X)                   \
@@ -32,6 +35,9 @@
     X(Material, materials)                  \
     X(EmissiveTriangle, emissive_triangles) \
     X(PunctualLight, punctual_lights)       \
-    X(AliasEntry, light_table)
+    X(AliasEntry, light_table)              \
+    X(Instance, previous_instances)         \
+    X(EmissiveTriangle, previous_emissive_triangles) \
+    X(PunctualLight, previous_punctual_lights)
 
 #endif

@@ -24,7 +24,9 @@
     X("orthographic", FEATURE_ORTHOGRAPHIC, 14)        \
     X("standard-error", FEATURE_STANDARD_ERROR, 15)    \
     X("first-hit-layers", FEATURE_FIRST_HIT_LAYERS, 16) \
-    X("light-sampling", FEATURE_LIGHT_SAMPLING, 17)
+    X("light-sampling", FEATURE_LIGHT_SAMPLING, 17) \
+    X("resampling", FEATURE_RESAMPLING, 18)            \
+    X("motion", FEATURE_MOTION, 19)
 
 SHARED_BEGIN
 #define DECLARE_FEATURE(name, constant, bit) CONST uint constant = 1u << bit;

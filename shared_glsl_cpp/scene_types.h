@@ -149,6 +149,33 @@ struct Environment {
 };
 ASSERT_SIZE(Environment, 36);
 
+/// How reservoirs are made and reused (restir.kernel.h).
+struct ResamplingConstants {
+    uint light_candidates;  // a pixel and frame, by power
+    uint bsdf_candidates;   // 0 or 1, where the surface is glossy enough to gain
+    uint temporal;          // 1: reuse the frame before
+    uint spatial_passes;
+    uint neighbors;         // a spatial pass, at most RESAMPLING_MAX_NEIGHBORS
+    float radius;           // of their disk, pixels
+    float confidence_cap;   // of the frame before, in this frame's confidences
+    uint mis;               // RESAMPLING_…
+    uint visibility;        // VISIBILITY_…
+};
+ASSERT_SIZE(ResamplingConstants, 36);
+
+CONST uint RESAMPLING_MAX_NEIGHBORS = 8u;
+CONST uint RESAMPLING_PAIRWISE = 0u;            // with defence, O(N)
+CONST uint RESAMPLING_BALANCE = 1u;             // the generalised balance heuristic, O(N^2): the reference
+CONST uint RESAMPLING_ONE_OVER_Z = 2u;          // Bitterli et al. 2020, algorithm 6
+CONST uint RESAMPLING_BIASED_ONE_OVER_M = 3u;   // the same, algorithm 4
+CONST uint VISIBILITY_IN_SHADING = 0u;          // the target knows none; one shadow ray at the end
+CONST uint VISIBILITY_IN_TARGET = 1u;           // the target is 0 in shadow, at every surface that takes part
+CONST uint VISIBILITY_BIASED_INITIAL = 2u;      // candidates in shadow are dropped, and MIS weights do not know
+CONST uint VISIBILITY_BIASED_FINAL = 3u;        // what proves shadowed at the end is not handed on
+
+CONST uint MOMENT_CURRENT = 0u;
+CONST uint MOMENT_PREVIOUS = 1u;  // which reuse looks back to
+
 /// What stays the same for a whole render.
 struct RenderConstants {
     Camera camera;
@@ -164,12 +191,17 @@ struct RenderConstants {
     uint light_count;
     uint emissive_triangle_count;
     uint punctual_light_count;
+    uint atlas_tile;    // 0, or the side of square copies of the view, each isolated from the others
+    Camera previous_camera;
+    ResamplingConstants resampling;
 };
-ASSERT_SIZE(RenderConstants, 144);
+ASSERT_SIZE(RenderConstants, 244);
 
 CONST uint INTEGRATOR_BRDF = 0u;
 CONST uint INTEGRATOR_DIRECT = 1u;
 CONST uint INTEGRATOR_PATH = 2u;
+CONST uint INTEGRATOR_RIS = 3u;     // `path` whose first vertex picks among many light candidates
+CONST uint INTEGRATOR_RESTIR = 4u;  // and reuses what its neighbours in time and space picked
 CONST uint BRDF_GGX = 0u;
 CONST uint BRDF_BLINN_PHONG = 1u;
 CONST uint MIS_POWER = 0u;

@@ -14,7 +14,8 @@ void pack_camera(const Scene& scene, const RenderSettings& settings, PackedScene
     const Camera& camera = scene.cameras[static_cast<std::size_t>(settings.camera)];
     const glm::dmat4& m = camera.camera_to_world;
     const double half_height = camera.orthographic ? camera.orthographic_height / 2 : std::tan(camera.vertical_fov / 2);
-    const double half_width = half_height * settings.width / settings.height;
+    const double aspect = settings.atlas_tile > 0 ? 1.0 : static_cast<double>(settings.width) / settings.height;
+    const double half_width = half_height * aspect;
     out.kind = camera.orthographic ? shared::CAMERA_ORTHOGRAPHIC : shared::CAMERA_PERSPECTIVE;
     out.origin = glm::vec3(glm::dvec3(m[3]) - packed.origin);
     out.right = glm::vec3(glm::dvec3(m[0]) * half_width);

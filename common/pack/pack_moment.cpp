@@ -61,6 +61,7 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     if (!packed.scene_instances.empty() && packed.scene_instances.back() >= scene.instances.size()) {
         require_same(scene, scene.instances.size(), packed.scene_instances.back() + 1U, "instances");
     }
+    keep_previous(packed);
     const std::vector<bool> materials = move_materials(scene, packed);
     const std::vector<bool> instances = move_instances(scene, packed);
     bool weigh = false;

@@ -36,6 +36,9 @@ void place_punctual_lights(const Scene& scene, PackedScene& packed);
 /// Picking probabilities and the light table, from the lights' powers.
 void weigh_lights(PackedScene& packed);
 
+/// What moves becomes the moment before, where reuse will look back to it; until then that is this one.
+void keep_previous(PackedScene& packed);
+
 /// Throws Error unless `size` elements of a buffer can be named by 32-bit indices.
 void require_indexable(const Scene& scene, std::size_t size, const char* what);
 

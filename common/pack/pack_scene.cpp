@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "error.h"
@@ -23,9 +24,29 @@ void pack_settings(const RenderSettings& settings, shared::RenderConstants& c) {
     c.integrator = static_cast<std::uint32_t>(settings.integrator);
     c.brdf = static_cast<std::uint32_t>(settings.brdf);
     c.mis = static_cast<std::uint32_t>(settings.mis);
+    c.atlas_tile = settings.atlas_tile;
+    const ResamplingSettings& from = settings.resampling;
+    c.resampling.light_candidates = from.light_candidates;
+    c.resampling.bsdf_candidates = from.bsdf_candidate ? 1 : 0;
+    c.resampling.temporal = from.temporal ? 1 : 0;
+    c.resampling.spatial_passes = from.spatial_passes;
+    c.resampling.neighbors = std::min(from.neighbors, shared::RESAMPLING_MAX_NEIGHBORS);
+    c.resampling.radius = from.radius;
+    c.resampling.confidence_cap = from.confidence_cap;
+    c.resampling.mis = static_cast<std::uint32_t>(from.mis);
+    c.resampling.visibility = static_cast<std::uint32_t>(from.visibility);
 }
 
 }  // namespace
+
+void keep_previous(PackedScene& packed) {
+    packed.constants.previous_camera = packed.constants.camera;
+    if ((packed.features & shared::FEATURE_MOTION) != 0 && packed.constants.integrator == shared::INTEGRATOR_RESTIR) {
+        packed.previous_instances = packed.instances;
+        packed.previous_emissive_triangles = packed.emissive_triangles;
+        packed.previous_punctual_lights = packed.punctual_lights;
+    }
+}
 
 void require_indexable(const Scene& scene, std::size_t size, const char* what) {
     if (size >= shared::NONE) {
@@ -54,6 +75,7 @@ PackedScene pack_scene(const Scene& scene, const RenderSettings& settings) {
     pack_camera(scene, settings, packed);
     packed.environment_luminance = pack_environment(scene, settings, packed);
     pack_lights(scene, packed);
+    keep_previous(packed);
     // A reader of the last vertex may fetch 16 bytes at once, as Embree does.
     packed.positions.emplace_back(0.0F);
     return packed;

@@ -64,6 +64,19 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
     if (!oracle && settings.sampler == SamplerKind::hammersley) {
         add("--sample-count", settings.sample_count);
     }
+    if (!oracle && (settings.integrator == Integrator::ris || settings.integrator == Integrator::restir)) {
+        const ResamplingSettings& resampling = settings.resampling;
+        add("--candidates", resampling.light_candidates);
+        command += resampling.bsdf_candidate ? " --bsdf-candidate" : " --no-bsdf-candidate";
+        command += resampling.temporal ? " --temporal" : " --no-temporal";
+        add("--spatial-passes", resampling.spatial_passes);
+        add("--neighbors", resampling.neighbors);
+        add("--reuse-radius", resampling.radius);
+        add("--confidence-cap", resampling.confidence_cap);
+        add("--reuse-mis", name_of(resampling.mis));
+        add("--reuse-visibility", name_of(resampling.visibility));
+        add("--atlas", settings.atlas_tile);
+    }
     if (!request.camera.empty()) {
         add("--camera", request.camera);
     }

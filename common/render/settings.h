@@ -5,10 +5,25 @@
 
 namespace diptych {
 
-enum class Integrator { brdf, direct, path };
+enum class Integrator { brdf, direct, path, ris, restir };
 enum class BrdfModel { ggx, blinn_phong };
 enum class SamplerKind { independent, hammersley, sobol };
 enum class MisHeuristic { power, balance };
+enum class ResamplingMis { pairwise, balance, one_over_z, biased_one_over_m };
+enum class ResamplingVisibility { shading, target, biased_initial, biased_final };
+
+/// How `ris` and `restir` resample; see ResamplingConstants in shared_glsl_cpp/scene_types.h.
+struct ResamplingSettings {
+    std::uint32_t light_candidates = 8;
+    bool bsdf_candidate = true;
+    bool temporal = true;
+    std::uint32_t spatial_passes = 1;
+    std::uint32_t neighbors = 4;
+    float radius = 16;          // pixels
+    float confidence_cap = 20;
+    ResamplingMis mis = ResamplingMis::pairwise;
+    ResamplingVisibility visibility = ResamplingVisibility::shading;
+};
 
 struct RenderSettings {
     int width = 512;
@@ -25,6 +40,8 @@ struct RenderSettings {
     bool first_hit_layers = false;     // keep albedo, normal, depth
     bool generic = false;              // leave nothing out: every feature on
     bool moves = false;                // the scene has other moments, which reuse will look back to
+    std::uint32_t atlas_tile = 0;      // ris and restir: pixels of the side of isolated copies of the view; 0 is one view
+    ResamplingSettings resampling;
 };
 
 }  // namespace diptych

@@ -15,7 +15,17 @@ struct Choice {
 };
 
 constexpr Choice<Integrator> integrators[] = {
-    {"brdf", Integrator::brdf}, {"direct", Integrator::direct}, {"path", Integrator::path}};
+    {"brdf", Integrator::brdf}, {"direct", Integrator::direct}, {"path", Integrator::path},
+    {"ris", Integrator::ris},   {"restir", Integrator::restir}};
+constexpr Choice<ResamplingMis> resampling_mis[] = {{"pairwise", ResamplingMis::pairwise},
+                                                    {"balance", ResamplingMis::balance},
+                                                    {"1-over-z", ResamplingMis::one_over_z},
+                                                    {"biased-1-over-m", ResamplingMis::biased_one_over_m}};
+constexpr Choice<ResamplingVisibility> resampling_visibility[] = {
+    {"shading", ResamplingVisibility::shading},
+    {"target", ResamplingVisibility::target},
+    {"biased-initial", ResamplingVisibility::biased_initial},
+    {"biased-final", ResamplingVisibility::biased_final}};
 constexpr Choice<BrdfModel> brdfs[] = {{"ggx", BrdfModel::ggx}, {"blinn-phong", BrdfModel::blinn_phong}};
 constexpr Choice<SamplerKind> samplers[] = {
     {"independent", SamplerKind::independent}, {"hammersley", SamplerKind::hammersley}, {"sobol", SamplerKind::sobol}};
@@ -58,6 +68,12 @@ const char* name_of(SamplerKind sampler) {
 const char* name_of(MisHeuristic mis) {
     return name_in(heuristics, mis);
 }
+const char* name_of(ResamplingMis mis) {
+    return name_in(resampling_mis, mis);
+}
+const char* name_of(ResamplingVisibility visibility) {
+    return name_in(resampling_visibility, visibility);
+}
 
 Integrator integrator_from_name(const std::string& name) {
     return value_in(integrators, "--integrator", name);
@@ -67,6 +83,12 @@ BrdfModel brdf_from_name(const std::string& name) {
 }
 SamplerKind sampler_from_name(const std::string& name) {
     return value_in(samplers, "--sampler", name);
+}
+ResamplingMis resampling_mis_from_name(const std::string& name) {
+    return value_in(resampling_mis, "--reuse-mis", name);
+}
+ResamplingVisibility resampling_visibility_from_name(const std::string& name) {
+    return value_in(resampling_visibility, "--reuse-visibility", name);
 }
 MisHeuristic mis_from_name(const std::string& name) {
     return value_in(heuristics, "--mis", name);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <vector>
 
+#include "backend/resampling_films.h"
 #include "embree_scene.h"
 #include "leaves.h"
 #include "pack/packed_scene.h"
@@ -55,6 +56,7 @@ struct CpuKernel {
     const PackedScene& packed;
     const RenderConstants& constants;
     Tracer tracer;
+    ResamplingFilms* films = nullptr;  // only resampling asks for them
 
     bool feature(uint bit) const { return (features() & bit) != 0; }
     uint features() const { return packed.features & ALLOWED; }
@@ -74,8 +76,26 @@ struct CpuKernel {
     bool trace_any(vec3 origin, vec3 direction, float t_max, uint alpha_key) const {
         return tracer.any(origin, direction, t_max, alpha_key);
     }
+    bool trace_any_previous(vec3 origin, vec3 direction, float t_max, uint alpha_key) const {
+        return tracer.any(origin, direction, t_max, alpha_key);
+    }
 
-#include "path.kernel.h"
+    const FirstVertex& load_first_vertex(uint index) const { return films->first_vertices[index]; }
+    void store_first_vertex(uint index, const FirstVertex& vertex) const { films->first_vertices[index] = vertex; }
+    const Reservoir& load_reservoir(uint set, uint index) const {
+        return films->reservoirs[set * films->pixels + index];
+    }
+    void store_reservoir(uint set, uint index, const Reservoir& r) const {
+        films->reservoirs[set * films->pixels + index] = r;
+    }
+    const ReuseSurface& load_reuse_surface(uint set, uint index) const {
+        return films->surfaces[set * films->pixels + index];
+    }
+    void store_reuse_surface(uint set, uint index, const ReuseSurface& s) const {
+        films->surfaces[set * films->pixels + index] = s;
+    }
+
+#include "restir.kernel.h"
 };
 
 }  // namespace shared

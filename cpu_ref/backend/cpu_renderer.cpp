@@ -38,6 +38,9 @@ public:
         film_.width = static_cast<int>(packed.constants.size.x);
         film_.height = static_cast<int>(packed.constants.size.y);
         clear_film();
+        if (resamples()) {
+            reuse_ = ResamplingFilms(packed.constants);
+        }
     }
 
     std::string backend() const override { return "cpu"; }
@@ -47,19 +50,25 @@ public:
         const std::uint64_t film = film_.pixels.size() * sizeof(shared::FilmPixel) +
                                    film_.moments.size() * sizeof(shared::FilmMoments) +
                                    film_.first_hits.size() * sizeof(shared::FilmFirstHit);
-        return {build_seconds_, 0, buffer_bytes(*packed_) + scene_->bytes() + film, scene_->bytes()};
+        return {build_seconds_, 0, buffer_bytes(*packed_) + scene_->bytes() + film + reuse_.bytes(), scene_->bytes()};
     }
 
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
         const Clock::time_point start = Clock::now();
-        for (std::uint32_t done = 0; done < count && !cancel; done += samples_a_slice) {
-            accumulate(film_, first + done, std::min(samples_a_slice, count - done), &cancel);
+        const std::uint32_t step = resamples() ? 1 : samples_a_slice;
+        for (std::uint32_t done = 0; done < count && !cancel; done += step) {
+            if (resamples()) {
+                render_frame(film_, first + done);
+            } else {
+                accumulate(film_, first + done, std::min(step, count - done), &cancel);
+            }
         }
         seconds_ += seconds_since(start);
     }
 
     void restart(std::uint32_t seed) override {
         constants_.seed = seed;
+        schedule_.restart();
         clear_film();
     }
 
@@ -98,21 +107,62 @@ private:
         });
     }
 
-    template <class Kernel>
-    void accumulate_tile(Kernel& kernel, Film& film, int tile_x, int tile_y, std::uint32_t first,
-                         std::uint32_t count) const {
+    /// One pixel of a film; layers that are left out go nowhere.
+    struct FilmEntry {
+        shared::FilmPixel& pixel;
+        shared::FilmMoments& moments;
+        shared::FilmFirstHit& first_hit;
+    };
+
+    template <class Body>
+    static void for_pixels(Film& film, int tile_x, int tile_y, const Body& body) {
         shared::FilmMoments no_moments{};
         shared::FilmFirstHit no_first_hit{};
         for (int y = tile_y * tile_size; y < std::min((tile_y + 1) * tile_size, film.height); ++y) {
             for (int x = tile_x * tile_size; x < std::min((tile_x + 1) * tile_size, film.width); ++x) {
                 const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
                                       static_cast<std::size_t>(x);
-                shared::FilmMoments& moments = film.moments.empty() ? no_moments : film.moments[i];
-                shared::FilmFirstHit& first_hit = film.first_hits.empty() ? no_first_hit : film.first_hits[i];
-                for (std::uint32_t sample = first; sample < first + count; ++sample) {
-                    kernel.add_path(kernel.trace_path({x, y}, sample), film.pixels[i], moments, first_hit);
-                }
+                body(shared::uvec2(x, y), {film.pixels[i], film.moments.empty() ? no_moments : film.moments[i],
+                                           film.first_hits.empty() ? no_first_hit : film.first_hits[i]});
             }
+        }
+    }
+
+    template <class Kernel>
+    void accumulate_tile(Kernel& kernel, Film& film, int tile_x, int tile_y, std::uint32_t first,
+                         std::uint32_t count) const {
+        for_pixels(film, tile_x, tile_y, [&](shared::uvec2 pixel, FilmEntry entry) {
+            for (std::uint32_t sample = first; sample < first + count; ++sample) {
+                kernel.add_path(kernel.trace_path(pixel, sample), entry.pixel, entry.moments, entry.first_hit);
+            }
+        });
+    }
+
+    bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
+
+    /// One sample of every pixel, pass by pass. A frame is not cut short, or its reservoirs would be of two frames.
+    void render_frame(Film& film, std::uint32_t frame) {
+        for (const ResamplingStep& step : schedule_.next_frame(frame)) {
+            for_tiles([&](int tile_x, int tile_y) {
+                shared::CpuKernel<PlainTracer, ~0U> kernel{*packed_, constants_, {*scene_}, &reuse_};
+                for_pixels(film, tile_x, tile_y, [&](shared::uvec2 pixel, FilmEntry entry) {
+                    switch (step.stage) {
+                        case ResamplingStage::candidates:
+                            kernel.resample_candidates(pixel, step.pass);
+                            break;
+                        case ResamplingStage::temporal:
+                            kernel.reuse_temporal(pixel, step.pass);
+                            break;
+                        case ResamplingStage::spatial:
+                            kernel.reuse_spatial(pixel, step.pass);
+                            break;
+                        case ResamplingStage::shade:
+                            kernel.add_path(kernel.shade_resampled(pixel, step.pass), entry.pixel, entry.moments,
+                                            entry.first_hit);
+                            break;
+                    }
+                });
+            });
         }
     }
 
@@ -144,6 +194,8 @@ private:
     Clock::time_point start_;
     std::unique_ptr<EmbreeScene> scene_;
     Film film_;
+    ResamplingFilms reuse_;
+    ResamplingSchedule schedule_{constants_};
     double build_seconds_ = 0;
     double seconds_ = 0;
 };

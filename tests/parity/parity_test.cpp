@@ -41,7 +41,8 @@ std::vector<Group> all_groups() {
     return {{"parity_numbers.comp", {NUMBER_PROBES(ENTRY)}},
             {"parity_sampling.comp", {SAMPLING_PROBES(ENTRY)}},
             {"parity_bsdf.comp", {BSDF_PROBES(ENTRY)}},
-            {"parity_surface.comp", {SURFACE_PROBES(ENTRY)}}};
+            {"parity_surface.comp", {SURFACE_PROBES(ENTRY)}},
+            {"parity_resampling.comp", {RESAMPLING_PROBES(ENTRY)}}};
 }
 
 struct Difference {

@@ -8,6 +8,7 @@
 
 #include "probes_bsdf.h"
 #include "probes_numbers.h"
+#include "probes_resampling.h"
 #include "probes_sampling.h"
 #include "probes_surface.h"
 
@@ -15,6 +16,7 @@
     NUMBER_PROBES(X)                                                                                                   \
     SAMPLING_PROBES(X)                                                                                                 \
     BSDF_PROBES(X)                                                                                                     \
-    SURFACE_PROBES(X)
+    SURFACE_PROBES(X)                                                                                                  \
+    RESAMPLING_PROBES(X)
 
 #endif

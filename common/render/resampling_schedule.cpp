@@ -1,0 +1,56 @@
+#include "render/resampling_schedule.h"
+
+namespace diptych {
+
+ResamplingSets resampling_sets(const shared::RenderConstants& constants) {
+    if (constants.integrator < shared::INTEGRATOR_RIS) {
+        return {};
+    }
+    const bool reuses = constants.integrator == shared::INTEGRATOR_RESTIR;
+    const bool temporal = reuses && constants.resampling.temporal != 0;
+    const bool spatial = reuses && constants.resampling.spatial_passes > 0;
+    return {.first_vertices = 1, .reservoirs = temporal || spatial ? 2U : 1U, .surfaces = temporal ? 2U : reuses ? 1U : 0U};
+}
+
+std::uint32_t resampling_bytes(const ResamplingSets& sets) {
+    return sets.first_vertices * static_cast<std::uint32_t>(sizeof(shared::FirstVertex)) +
+           sets.reservoirs * static_cast<std::uint32_t>(sizeof(shared::Reservoir)) +
+           sets.surfaces * static_cast<std::uint32_t>(sizeof(shared::ReuseSurface));
+}
+
+ResamplingSchedule::ResamplingSchedule(const shared::RenderConstants& constants)
+    : constants_(constants), sets_(resampling_sets(constants)) {}
+
+std::vector<ResamplingStep> ResamplingSchedule::next_frame(std::uint32_t frame) {
+    const bool follows = has_history_ && frame == last_frame_ + 1;
+    const bool two_surfaces = sets_.surfaces > 1;
+    surfaces_ = two_surfaces ? 1 - surfaces_ : 0;
+    std::uint32_t current = sets_.reservoirs > 1 ? 1 - history_ : 0;
+
+    shared::ResamplingPass pass{};
+    pass.frame = frame;
+    pass.surfaces = surfaces_;
+    pass.has_history = follows ? 1 : 0;
+    pass.reservoirs = current;
+    std::vector<ResamplingStep> steps{{ResamplingStage::candidates, pass}};
+    const bool reuses = constants_.integrator == shared::INTEGRATOR_RESTIR;
+    if (reuses && constants_.resampling.temporal != 0 && follows) {
+        pass.other_reservoirs = history_;
+        steps.push_back({ResamplingStage::temporal, pass});
+    }
+    for (std::uint32_t i = 0; reuses && i < constants_.resampling.spatial_passes; ++i) {
+        pass.iteration = i;
+        pass.reservoirs = current;
+        pass.other_reservoirs = 1 - current;
+        steps.push_back({ResamplingStage::spatial, pass});
+        current = 1 - current;
+    }
+    pass.reservoirs = current;
+    steps.push_back({ResamplingStage::shade, pass});
+    history_ = current;
+    has_history_ = true;
+    last_frame_ = frame;
+    return steps;
+}
+
+}  // namespace diptych

@@ -1,0 +1,30 @@
+// What resampling keeps for every pixel between its passes, and what a pass is told. A set is one whole film of something.
+#ifndef RESAMPLING_MEMORY_H
+#define RESAMPLING_MEMORY_H
+
+#include "hit.h"
+#include "reservoir.h"
+#include "reuse_surface.h"
+
+SHARED_BEGIN
+
+/// A first vertex that waits to be shaded.
+struct FirstVertex {
+    Hit hit;
+    uint rays;  // traced for it so far, beside the camera's
+};
+ASSERT_SIZE(FirstVertex, 28);
+
+struct ResamplingPass {
+    uint frame;             // the sample index of all pixels
+    uint reservoirs;        // set of this frame's, which a pass reads
+    uint other_reservoirs;  // temporal: set of the frame before's; spatial: where the results go
+    uint surfaces;          // set of this frame's
+    uint has_history;       // 0: there is no frame before
+    uint iteration;         // of the spatial pass
+};
+ASSERT_SIZE(ResamplingPass, 24);
+
+SHARED_END
+
+#endif

@@ -1,0 +1,102 @@
+// Weighted reservoirs in the form of GRIS (Lin et al. 2022): a chosen light point y and its unbiased contribution weight W, so that
+// f(y) W estimates the integral of f. Light points live in uv measure, in which reuse between pixels and frames is the identity shift
+// with Jacobian 1, even for lights that move or scale.
+#ifndef RESERVOIR_H
+#define RESERVOIR_H
+
+#include "compat.h"
+
+SHARED_BEGIN
+
+CONST float TARGET_MIN = 1.0e-20f;  // a target below it counts as 0
+
+/// A point on a light: `uv` are barycentrics b1, b2 of an emissive triangle; of the environment, direction_uv; of a punctual light,
+/// nothing.
+struct LightPoint {
+    uint light;  // NONE: no point
+    vec2 uv;
+};
+ASSERT_SIZE(LightPoint, 12);
+
+struct Reservoir {
+    LightPoint point;
+    float weight;      // W, per unit of uv measure; 0: a null sample
+    float confidence;  // c, in initial samplings
+};
+ASSERT_SIZE(Reservoir, 20);
+
+FN LightPoint no_light_point() {
+    LightPoint y;
+    y.light = NONE;
+    y.uv = vec2(0.0f, 0.0f);
+    return y;
+}
+
+FN Reservoir empty_reservoir() {
+    Reservoir r;
+    r.point = no_light_point();
+    r.weight = 0.0f;
+    r.confidence = 0.0f;
+    return r;
+}
+
+/// Candidates passing by; one is kept in proportion to its weight.
+struct Resampling {
+    LightPoint point;
+    float target;  // of the kept point
+    float weight_sum;
+};
+
+FN Resampling begin_resampling() {
+    Resampling s;
+    s.point = no_light_point();
+    s.target = 0.0f;
+    s.weight_sum = 0.0f;
+    return s;
+}
+
+/// A candidate of resampling weight w = m p̂(y) W; u in [0, 1). What is not a positive finite number is passed over.
+FN void add_candidate(INOUT(Resampling) s, IN(LightPoint) point, float target, float w, float u) {
+    if (!(target > TARGET_MIN) || !(w > 0.0f && w < INFINITE_DISTANCE)) {
+        return;
+    }
+    s.weight_sum += w;
+    if (u * s.weight_sum < w) {
+        s.point = point;
+        s.target = target;
+    }
+}
+
+/// W = scale · Σw / p̂(y).
+FN Reservoir end_resampling(IN(Resampling) s, float scale, float confidence) {
+    Reservoir r;
+    r.point = s.point;
+    r.weight = s.target > 0.0f ? scale * (s.weight_sum / s.target) : 0.0f;
+    r.confidence = confidence;
+    if (!(r.weight > 0.0f && r.weight < INFINITE_DISTANCE)) {
+        r.point = no_light_point();
+        r.weight = 0.0f;
+    }
+    return r;
+}
+
+// Multiple importance sampling between reservoirs. Index i is a neighbour with confidence c_i, c the canonical sample; S = Σ c_i over
+// the neighbours, C = S + c_c. Pairwise with defence: Bitterli 2022, ch. 9; Lin et al. 2022, supplement.
+
+/// m_i at the neighbour's own sample.
+FN float pairwise_neighbor_share(float c_i, float target_i, float c_canonical, float target_canonical, float s) {
+    float own = s * target_i;
+    float both = own + c_canonical * target_canonical;
+    return both > 0.0f ? (s / (s + c_canonical)) * (c_i / s) * (own / both) : 0.0f;
+}
+
+/// What one neighbour leaves of m_c at the canonical sample; the sum over neighbours, plus c_c / C, is m_c.
+FN float pairwise_canonical_share(float c_i, float target_i, float c_canonical, float target_canonical, float s) {
+    float own = c_canonical * target_canonical;
+    float both = own + s * target_i;
+    return both > 0.0f ? (c_i / (s + c_canonical)) * (own / both) : 0.0f;
+}
+
+SHARED_END
+
+#endif

@@ -1,0 +1,200 @@
+// Merging reservoirs of other pixels, or of the frame before, into a pixel's own (GRIS, Lin et al. 2022).
+//
+// What keeps this unbiased: a neighbour takes part, with its confidence, whatever its reservoir holds; whether it takes part depends on
+// geometry alone; and its share of a light point is the target at the surface, among the lights and past the occluders, that its
+// reservoir was made for.
+#ifndef REUSE_KERNEL_H
+#define REUSE_KERNEL_H
+
+#include "light_point.kernel.h"
+
+/// Reservoirs to merge: pixels of one set, with the surfaces and the lights they were made for.
+struct Neighborhood {
+    uint count;
+    uint pixels[RESAMPLING_MAX_NEIGHBORS];
+    uint reservoir_set;
+    uint surface_set;
+    uint moment;
+    float confidence_cap;
+};
+
+FN bool target_has_visibility() { return constants.resampling.visibility == VISIBILITY_IN_TARGET; }
+
+/// Names the shadow rays to a light point: whether they pass stochastic alpha is a property of the point, the same for every surface.
+FN uint visibility_key(IN(LightPoint) y) {
+    if (!feature(FEATURE_ALPHA)) {
+        return 0u;
+    }
+    return pcg4d(uvec4(y.light, floatBitsToUint(y.uv.x), floatBitsToUint(y.uv.y), constants.seed)).x >> 1;
+}
+
+FN bool is_light_occluded(IN(TargetSurface) s, IN(SeenLight) light, IN(LightPoint) y, uint moment) {
+    vec3 origin = offset_ray(s.position, s.geometric_normal);
+    vec3 direction = light.distant ? light.direction : light.end - origin;
+    float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
+    if (feature(FEATURE_MOTION) && moment == MOMENT_PREVIOUS) {
+        return trace_any_previous(origin, direction, t_max, visibility_key(y));
+    }
+    return trace_any(origin, direction, t_max, visibility_key(y));
+}
+
+/// The target without visibility, per uv.
+FN float unoccluded_target(IN(TargetSurface) s, IN(SeenLight) light) {
+    return light.measure * luminance(target_reflectance(s, light.direction) * light.radiance);
+}
+
+/// The target p̂ at a surface, per uv: as the lights and occluders of `moment` have it. Counts the rays it needs.
+FN float target_at(IN(TargetSurface) s, IN(LightPoint) y, uint moment, INOUT(uint) rays) {
+    SeenLight light = see_light_point(y, s.position, moment);
+    float target = unoccluded_target(s, light);
+    if (!(target > TARGET_MIN)) {
+        return 0.0f;
+    }
+    if (target_has_visibility()) {
+        rays += 1u;
+        return is_light_occluded(s, light, y, moment) ? 0.0f : target;
+    }
+    return target;
+}
+
+/// The target of a reservoir's own point at its own surface: where the target asks for visibility, a reservoir that is not null has
+/// been seen to have it.
+FN float own_target_at(IN(TargetSurface) s, IN(LightPoint) y, uint moment) {
+    float target = unoccluded_target(s, see_light_point(y, s.position, moment));
+    return target > TARGET_MIN ? target : 0.0f;
+}
+
+FN Reservoir neighbor_reservoir(IN(Neighborhood) others, uint i) {
+    Reservoir r = load_reservoir(others.reservoir_set, others.pixels[i]);
+    r.confidence = min(r.confidence, others.confidence_cap);
+    return r;
+}
+
+FN TargetSurface neighbor_surface(IN(Neighborhood) others, uint i) {
+    return unpack_reuse_surface(load_reuse_surface(others.surface_set, others.pixels[i]));
+}
+
+/// One random number for each merge of neighbour `i`; the canonical sample takes one of its own.
+FN float pick_number(IN(Sampler) random, uint dimension, uint i) {
+    return unit_float(independent_words(random, dimension + i).x);
+}
+
+/// Pairwise MIS with defence. A null sample keeps its confidence.
+FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target, IN(Neighborhood) others,
+                            float others_confidence, IN(Sampler) random, uint dimension, INOUT(uint) rays) {
+    Resampling chosen = begin_resampling();
+    float own_share = own.confidence / (others_confidence + own.confidence);
+    for (uint i = 0u; i < others.count; i++) {
+        Reservoir r = neighbor_reservoir(others, i);
+        if (!(r.confidence > 0.0f)) {
+            continue;
+        }
+        TargetSurface surface = neighbor_surface(others, i);
+        if (r.weight > 0.0f) {
+            float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
+            if (here > 0.0f) {
+                float there = own_target_at(surface, r.point, others.moment);
+                float share = pairwise_neighbor_share(r.confidence, there, own.confidence, here, others_confidence);
+                add_candidate(chosen, r.point, here, share * here * r.weight, pick_number(random, dimension, i));
+            }
+        }
+        if (own_target > 0.0f) {
+            float there = target_at(surface, own.point, others.moment, rays);
+            own_share += pairwise_canonical_share(r.confidence, there, own.confidence, own_target, others_confidence);
+        }
+    }
+    if (own_target > 0.0f) {
+        add_candidate(chosen, own.point, own_target, own_share * own_target * own.weight,
+                      pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
+    }
+    return end_resampling(chosen, 1.0f, others_confidence + own.confidence);
+}
+
+/// Confidence times target at `y`, summed over all that take part: the denominator of the generalised balance heuristic; or, for
+/// 1/Z, the confidences alone of those that could have made it.
+FN float total_at(IN(LightPoint) y, float own_confidence, float own_target, IN(Neighborhood) others, bool by_target,
+                  INOUT(uint) rays) {
+    float total = own_target > 0.0f ? own_confidence * (by_target ? own_target : 1.0f) : 0.0f;
+    for (uint i = 0u; i < others.count; i++) {
+        Reservoir r = neighbor_reservoir(others, i);
+        float there = target_at(neighbor_surface(others, i), y, others.moment, rays);
+        total += there > 0.0f ? r.confidence * (by_target ? there : 1.0f) : 0.0f;
+    }
+    return total;
+}
+
+/// The generalised balance heuristic, for reference.
+FN Reservoir merge_balance(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target, IN(Neighborhood) others,
+                           float others_confidence, IN(Sampler) random, uint dimension, INOUT(uint) rays) {
+    Resampling chosen = begin_resampling();
+    for (uint i = 0u; i < others.count; i++) {
+        Reservoir r = neighbor_reservoir(others, i);
+        if (!(r.weight > 0.0f && r.confidence > 0.0f)) {
+            continue;
+        }
+        float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
+        float there = own_target_at(neighbor_surface(others, i), r.point, others.moment);
+        float total = total_at(r.point, own.confidence, here, others, true, rays);
+        if (here > 0.0f && there > 0.0f) {
+            add_candidate(chosen, r.point, here, r.confidence * there / total * here * r.weight,
+                          pick_number(random, dimension, i));
+        }
+    }
+    if (own_target > 0.0f) {
+        float total = total_at(own.point, own.confidence, own_target, others, true, rays);
+        add_candidate(chosen, own.point, own_target, own.confidence * own_target / total * own_target * own.weight,
+                      pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
+    }
+    return end_resampling(chosen, 1.0f, others_confidence + own.confidence);
+}
+
+/// Weights by confidence alone, put right at the end by those that could have made the chosen point (1/Z), or not put right (1/M,
+/// biased): Bitterli et al. 2020, algorithms 6 and 4.
+FN Reservoir merge_by_confidence(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target,
+                                 IN(Neighborhood) others, float others_confidence, IN(Sampler) random, uint dimension,
+                                 INOUT(uint) rays) {
+    Resampling chosen = begin_resampling();
+    for (uint i = 0u; i < others.count; i++) {
+        Reservoir r = neighbor_reservoir(others, i);
+        if (r.weight > 0.0f) {
+            float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
+            add_candidate(chosen, r.point, here, r.confidence * here * r.weight, pick_number(random, dimension, i));
+        }
+    }
+    if (own_target > 0.0f) {
+        add_candidate(chosen, own.point, own_target, own.confidence * own_target * own.weight,
+                      pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
+    }
+    float confidence = others_confidence + own.confidence;
+    float total = confidence;
+    if (constants.resampling.mis == RESAMPLING_ONE_OVER_Z && chosen.target > 0.0f) {
+        total = total_at(chosen.point, own.confidence, chosen.target, others, false, rays);
+    }
+    return end_resampling(chosen, total > 0.0f ? 1.0f / total : 0.0f, confidence);
+}
+
+/// `own`: the pixel's reservoir, the canonical sample, which always takes part.
+FN Reservoir merge_reservoirs(IN(TargetSurface) own_surface, IN(Reservoir) own, IN(Neighborhood) others, IN(Sampler) random,
+                              uint dimension, INOUT(uint) rays) {
+    float others_confidence = 0.0f;
+    for (uint i = 0u; i < others.count; i++) {
+        Reservoir r = neighbor_reservoir(others, i);
+        others_confidence += r.confidence;
+    }
+    if (!(others_confidence > 0.0f)) {
+        return own;
+    }
+    float own_target = 0.0f;
+    if (own.weight > 0.0f) {
+        own_target = own_target_at(own_surface, own.point, MOMENT_CURRENT);
+    }
+    if (constants.resampling.mis == RESAMPLING_PAIRWISE) {
+        return merge_pairwise(own_surface, own, own_target, others, others_confidence, random, dimension, rays);
+    }
+    if (constants.resampling.mis == RESAMPLING_BALANCE) {
+        return merge_balance(own_surface, own, own_target, others, others_confidence, random, dimension, rays);
+    }
+    return merge_by_confidence(own_surface, own, own_target, others, others_confidence, random, dimension, rays);
+}
+
+#endif

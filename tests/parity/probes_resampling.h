@@ -1,0 +1,138 @@
+// Probes of reservoirs, reuse surfaces and the camera's projection.
+#ifndef PROBES_RESAMPLING_H
+#define PROBES_RESAMPLING_H
+
+#include "probes_surface.h"
+
+SHARED_BEGIN
+
+FN void probe_reservoir(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    Reservoir empty = empty_reservoir();
+    put_bits(o, empty.point.light);
+    Resampling s = begin_resampling();
+    LightPoint y = no_light_point();
+    y.light = p.words.x;
+    y.uv = vec2(p.u.x, p.u.y);
+    add_candidate(s, y, abs(p.number), p.special, p.u.z);
+    y.light = p.words.y;
+    add_candidate(s, y, p.u.w, p.u.x, p.u.y);
+    put_bits(o, s.point.light);
+    put_bits(o, floatBitsToUint(s.target));
+    put_relative(o, s.weight_sum);
+    Reservoir r = end_resampling(s, 0.5f, 3.0f);
+    put_bits(o, r.point.light);
+    put_relative(o, r.weight);
+}
+
+FN void probe_pairwise_shares(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    float c = 1.0f + p.u.x;
+    float s = c + 20.0f * p.u.y;
+    put_relative(o, pairwise_neighbor_share(c, p.u.z, 1.0f, p.u.w, s));
+    put_relative(o, pairwise_canonical_share(c, p.u.z, 1.0f, p.u.w, s));
+    put_relative(o, pairwise_neighbor_share(c, abs(p.number), 1.0f, abs(p.other), s));
+    put(o, pairwise_neighbor_share(c, 0.0f, 1.0f, 0.0f, s), 1.0f);
+}
+
+FN void probe_unit_vector_packing(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    put_bits(o, pack_snorm16(2.0f * p.u.x - 1.0f));
+    put_relative(o, unpack_snorm16(p.words.x & 0xffffu));
+    put3(o, unpack_unit_vector(p.words.y), 1.0f);
+    // A coordinate may round to the next step, whose size is 2^-15: half of it is 2^7 units.
+    put3(o, unpack_unit_vector(pack_unit_vector(p.axis)), 256.0f);
+}
+
+FN void probe_color_packing(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    put3(o, unpack_color(p.words.x), 1.0f);
+    vec3 kept = unpack_color(pack_color(p.color));
+    put3(o, kept, 16384.0f * max(max_component(p.color), 1.0e-9f));  // one step of 2^-9 of the largest
+    put_path(o, kept.x > 0.0f);
+}
+
+/// Fields from bits, so that both languages unpack the same.
+FN ReuseSurface probe_reuse_surface(IN(ProbeInput) p) {
+    ReuseSurface s = no_reuse_surface();
+    s.position = p.vertex;
+    s.geometric_normal = p.words.x;
+    s.normal = p.words.x ^ (p.words.y & 0x00ff00ffu);
+    s.wo = p.words.x ^ (p.words.z & 0x0fff0fffu);
+    s.diffuse = p.words.y;
+    s.f0 = p.words.z;
+    s.rest = REUSE_SURFACE_VALID | (p.words.w & 0xffff0002u) | 0xff00u;
+    return s;
+}
+
+FN void probe_target(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    TargetSurface s = unpack_reuse_surface(probe_reuse_surface(p));
+    put_relative(o, s.alpha);
+    put_relative(o, s.f90);
+    float facing = dot(p.light, s.geometric_normal);
+    put_path(o, facing > -TARGET_COS_MIN);
+    vec3 sum = s.wo + p.light;
+    put_path(o, dot(sum, sum) > 1.0e-12f);
+    vec3 value = target_reflectance(s, p.light);
+    // The lobe's logarithm moves by 4 / alpha for each unit that the half vector does, and that by 2 / |o + i|.
+    float scale = 1.0f + 8.0f / (s.alpha * max(length(sum), 1.0e-3f));
+    if (put_comparable(o, scale)) {
+        put3(o, value, max_component(value) * scale);
+    }
+}
+
+FN void probe_similar(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    ReuseSurface a = probe_reuse_surface(p);
+    ReuseSurface b = a;
+    b.position = p.vertex + 0.1f * p.edge_1;
+    b.normal = p.words.x ^ (p.words.w & 0x0fff0fffu);
+    put_path(o, is_similar(a, b, p.vertex + p.axis));
+    put_bits(o, is_similar(no_reuse_surface(), b, p.axis) ? 1u : 0u);
+    put_bits(o, is_valid(a) ? 1u : 0u);
+}
+
+FN void probe_pack_surface(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    ReuseSurface s = pack_reuse_surface(p.vertex, probe_surface(p), p.view);
+    put_same3(o, s.position);
+    put_bits(o, s.rest & 0xffu);
+    TargetSurface t = unpack_reuse_surface(s);
+    put3(o, t.geometric_normal, 256.0f);
+    put3(o, t.wo, 256.0f);
+    put(o, t.alpha, 256.0f);
+}
+
+FN void probe_projection(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    Camera camera;
+    camera.origin = p.vertex;
+    camera.kind = p.words.x % 4u == 0u ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
+    camera.right = 0.7f * p.axis_2;
+    camera.lens_radius = 0.0f;
+    camera.up = p.wi;
+    camera.focus_distance = 1.0f;
+    camera.forward = p.axis;
+    vec2 film;
+    bool ahead = camera_project(camera, p.vertex + p.light, film);
+    put_path(o, ahead);
+    float along = max(dot(p.light, p.axis), 1.0e-6f);
+    float scale = (4.0f + length(p.vertex)) * (1.0f + 1.0f / along) / along;
+    if (put_comparable(o, scale)) {
+        put(o, film.x, scale);
+        put(o, film.y, scale);
+    }
+}
+
+FN void probe_words(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    Sampler random = make_sampler(uvec2(p.words.x, p.words.y), p.words.z, p.words.w, SAMPLER_INDEPENDENT, 1u);
+    put_bits4(o, independent_words(random, p.set.x));
+}
+
+#define RESAMPLING_PROBES(X)                                                                                           \
+    X(reservoir, 8, 50, "a sum, a division, a product")                                                                \
+    X(pairwise_shares, 24, 0, "three divisions")                                                                       \
+    X(unit_vector_packing, 8, 100, "a normalize; a coordinate may round to the next step")                             \
+    X(color_packing, 8, 100, "a product; a channel may round to the next step")                                        \
+    X(target, 32, 500, "dot products and normalize, a square root each for masking, four divisions")                   \
+    X(similar, 8, 500, "nothing but its answer")                                                                       \
+    X(pack_surface, 8, 100, "a coordinate may round to the next step")                                                 \
+    X(projection, 16, 50, "dot products and three divisions")                                                          \
+    X(words, 0, 0, "integers")
+
+SHARED_END
+
+#endif
