@@ -227,8 +227,7 @@ bool EmbreeScene::any(const glm::vec3& origin, const glm::vec3& direction, float
 
 bool EmbreeScene::any_previous(const glm::vec3& origin, const glm::vec3& direction, float t_max,
                                std::uint32_t alpha_key) const {
-    assert(previous_.scene);
-    return occluded(previous_.scene.get(), origin, direction, t_max, alpha_key);
+    return occluded(previous_.scene ? previous_.scene.get() : root_.scene.get(), origin, direction, t_max, alpha_key);
 }
 
 bool EmbreeScene::occluded(RTCScene root, const glm::vec3& origin, const glm::vec3& direction, float t_max,

@@ -42,7 +42,7 @@ public:
     /// Whether anything lies in (0, t_max).
     bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const;
 
-    /// The same in the moment before; only where PackedScene::keeps_previous.
+    /// The same in the moment before, which is this one unless PackedScene::keeps_previous.
     bool any_previous(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const;
 
     /// Places the instances as another moment has them. Meshes stay; the root is rebuilt where any instance moved. Throws Error where

@@ -2,7 +2,7 @@
 #ifndef DISPATCH_H
 #define DISPATCH_H
 
-#include "compat.h"
+#include "resampling_memory.h"
 
 SHARED_BEGIN
 
@@ -13,8 +13,9 @@ struct Dispatch {
     uint sample_count;
     uint ray_capacity;
     uint first_ray;  // of this dispatch, when recorded rays are traced again
+    ResamplingPass pass;
 };
-ASSERT_SIZE(Dispatch, 24);
+ASSERT_SIZE(Dispatch, 48);
 
 /// One ray as the integrator asked for it.
 struct RecordedRay {

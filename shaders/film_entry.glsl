@@ -1,25 +1,6 @@
-// main() of an integrator. Each sample is traced and then added to its pixel's film, so that no film is kept while rays are. All rays
-// are traced in one place: an invocation whose path ends begins its next sample, and one that needs no shadow ray goes on along its
-// path, while others still trace theirs.
-void add_to_film(uint index, PathSample path) {
-    FilmPixel film = addresses.film_pixels.data[index];
-    FilmMoments moments;
-    FilmFirstHit first_hit;
-    if (feature(FEATURE_STANDARD_ERROR)) {
-        moments = addresses.film_moments.data[index];
-    }
-    if (feature(FEATURE_FIRST_HIT_LAYERS)) {
-        first_hit = addresses.film_first_hits.data[index];
-    }
-    add_path(path, film, moments, first_hit);
-    addresses.film_pixels.data[index] = film;
-    if (feature(FEATURE_STANDARD_ERROR)) {
-        addresses.film_moments.data[index] = moments;
-    }
-    if (feature(FEATURE_FIRST_HIT_LAYERS)) {
-        addresses.film_first_hits.data[index] = first_hit;
-    }
-}
+// main() of an integrator. All rays are traced in one place: an invocation whose path ends begins its next sample, and one that needs no
+// shadow ray goes on along its path, while others still trace theirs.
+#include "film_store.glsl"
 
 void main() {
     uvec2 pixel = dispatch_block.value.origin + gl_LaunchIDEXT.xy;

@@ -8,6 +8,7 @@
 #include "dispatch.h"
 #include "film_pixel.h"
 #include "scene_buffers.h"
+#include "resampling_memory.h"
 #include "scene_features.h"
 
 layout(constant_id = 0) const uint FEATURES = 0xffffffffu;
@@ -40,6 +41,9 @@ SCENE_BUFFERS(DECLARE_REFERENCE)
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer film_pixels_buffer { FilmPixel data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer film_moments_buffer { FilmMoments data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer film_first_hits_buffer { FilmFirstHit data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer first_vertices_buffer { FirstVertex data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer reservoirs_buffer { Reservoir data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer reuse_surfaces_buffer { ReuseSurface data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer recorded_rays_buffer { RecordedRay data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ray_counters_buffer { RayCounters data; };
 
@@ -51,6 +55,9 @@ layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
     film_pixels_buffer film_pixels;
     film_moments_buffer film_moments;
     film_first_hits_buffer film_first_hits;
+    first_vertices_buffer first_vertices;
+    reservoirs_buffer reservoirs;
+    reuse_surfaces_buffer reuse_surfaces;
     recorded_rays_buffer recorded_rays;
     ray_counters_buffer ray_counters;
 } addresses;

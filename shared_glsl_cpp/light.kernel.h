@@ -126,7 +126,9 @@ FN vec3 emitter_radiance(IN(EmissiveTriangle) light, vec2 barycentrics) {
     LOCAL(Geometry) geometry = load_geometries(light.geometry);
     LOCAL(Material) material = load_materials(geometry.material);
     MeshPoint p = mesh_point(geometry, light.primitive, barycentrics);
-    vec3 radiance = material_emission(material, p);
+    // The light's own factor, not the material's: the light may be of the moment before.
+    vec3 radiance = (material.flags & MATERIAL_UNLIT) != 0u ? xyz(base_color(material, p))
+                                                            : light.radiance * xyz(slot_value(material.emission_slot, p));
     if (feature(FEATURE_ALPHA) && (material.flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u) {
         radiance = radiance * opacity(material, base_color(material, p).w);
     }

@@ -5,9 +5,15 @@
 #include "upload.h"
 
 namespace diptych {
+namespace {
+
+constexpr std::uint32_t structure_binding = 0;
+constexpr std::uint32_t previous_binding = 3;
+
+}  // namespace
 
 Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::AccelerationStructureKHR structure,
-                       const SceneAddresses& addresses, const shared::RenderConstants& constants) {
+                       vk::AccelerationStructureKHR previous, const SceneAddresses& addresses, const shared::RenderConstants& constants) {
     using Type = vk::DescriptorType;
     Bindings made;
     Uploader uploader(gpu, 4096);
@@ -17,7 +23,7 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
     uploader.finish();
 
     const std::array<vk::DescriptorPoolSize, 2> sizes = {
-        {{.type = Type::eAccelerationStructureKHR, .descriptorCount = 1},
+        {{.type = Type::eAccelerationStructureKHR, .descriptorCount = 2},
          {.type = Type::eUniformBuffer, .descriptorCount = 2}}};
     vk::DescriptorPoolCreateInfo pool{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, .maxSets = 1};
     pool.setPoolSizes(sizes);
@@ -26,16 +32,9 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
     allocate.setSetLayouts(*layout.set);
     made.set = std::move(gpu.device.allocateDescriptorSets(allocate).front());
 
-    vk::WriteDescriptorSetAccelerationStructureKHR structure_write;
-    structure_write.setAccelerationStructures(structure);
     const vk::DescriptorBufferInfo addresses_info{.buffer = *made.addresses.handle, .range = VK_WHOLE_SIZE};
     const vk::DescriptorBufferInfo constants_info{.buffer = *made.constants.handle, .range = VK_WHOLE_SIZE};
-    const std::array<vk::WriteDescriptorSet, 3> writes = {{
-        {.pNext = &structure_write,
-         .dstSet = *made.set,
-         .dstBinding = 0,
-         .descriptorCount = 1,
-         .descriptorType = Type::eAccelerationStructureKHR},
+    const std::array<vk::WriteDescriptorSet, 2> writes = {{
         {.dstSet = *made.set,
          .dstBinding = 1,
          .descriptorCount = 1,
@@ -48,18 +47,22 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
          .pBufferInfo = &constants_info},
     }};
     gpu.device.updateDescriptorSets(writes, {});
+    replace_structures(gpu, made, structure, previous);
     return made;
 }
 
-void replace_structure(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure) {
-    vk::WriteDescriptorSetAccelerationStructureKHR structure_write;
-    structure_write.setAccelerationStructures(structure);
-    const vk::WriteDescriptorSet write{.pNext = &structure_write,
-                                       .dstSet = *bindings.set,
-                                       .dstBinding = 0,
-                                       .descriptorCount = 1,
-                                       .descriptorType = vk::DescriptorType::eAccelerationStructureKHR};
-    gpu.device.updateDescriptorSets(write, {});
+void replace_structures(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure,
+                        vk::AccelerationStructureKHR previous) {
+    for (const auto& [binding, handle] : {std::pair(structure_binding, structure), std::pair(previous_binding, previous)}) {
+        vk::WriteDescriptorSetAccelerationStructureKHR handles;
+        handles.setAccelerationStructures(handle);
+        const vk::WriteDescriptorSet write{.pNext = &handles,
+                                           .dstSet = *bindings.set,
+                                           .dstBinding = binding,
+                                           .descriptorCount = 1,
+                                           .descriptorType = vk::DescriptorType::eAccelerationStructureKHR};
+        gpu.device.updateDescriptorSets(write, {});
+    }
 }
 
 void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants) {

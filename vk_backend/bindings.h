@@ -15,13 +15,15 @@ struct Bindings {
     vk::raii::DescriptorSet set = nullptr;
 };
 
+/// `previous`: of the moment before; the same where there is none.
 Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::AccelerationStructureKHR structure,
-                       const SceneAddresses& addresses, const shared::RenderConstants& constants);
+                       vk::AccelerationStructureKHR previous, const SceneAddresses& addresses, const shared::RenderConstants& constants);
 
 /// Puts other constants in the place of those it was made with. Nothing that reads them may be in flight.
 void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants);
 
-/// Likewise another top-level structure.
-void replace_structure(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure);
+/// Likewise other top-level structures.
+void replace_structures(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure,
+                        vk::AccelerationStructureKHR previous);
 
 }  // namespace diptych

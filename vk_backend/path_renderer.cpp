@@ -40,7 +40,7 @@ void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipelin
 
 PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes)
     : gpu_(std::make_unique<Gpu>(open_gpu(options.device, validation_wanted(options.validation)))),
-      constants_(packed.constants), features_(packed.features), changes_(changes) {
+      constants_(packed.constants), features_(packed.features), changes_(changes), schedule_(packed.constants) {
     const auto start = std::chrono::steady_clock::now();
     in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
     in_context("building acceleration structures", [&] {
@@ -51,17 +51,33 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
         }
     });
     const auto size = glm::ivec2(constants_.size);
-    in_context("making the film", [&] { film_ = make_film(*gpu_, size.x, size.y, features_); });
+    in_context("making the film", [&] {
+        film_ = make_film(*gpu_, size.x, size.y, features_);
+        resampling_ = make_resampling_memory(*gpu_, constants_);
+    });
     costs_.build_seconds = seconds_since(start);
     costs_.acceleration_bytes = bottom_.bytes + top_.storage.size + previous_top_.storage.size;
-    costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + film_bytes(film_);
+    costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + film_bytes(film_) +
+                   resampling_memory_bytes(resampling_);
 
     const auto compile_start = std::chrono::steady_clock::now();
     in_context("setting up pipelines", [&] {
         layout_ = make_pipeline_layout(*gpu_);
-        path_ = compile(changes.ray_generation.empty() ? shader_binary("path.rgen") : changes.ray_generation, false);
-        bindings_ = make_bindings(*gpu_, layout_, *top_.structure, addresses(film_), constants_);
-        warm_up(path_, bindings_);
+        if (resamples()) {
+            for (std::size_t i = 0; i < resampling_stages; ++i) {
+                const auto stage = static_cast<ResamplingStage>(i);
+                if (needs_stage(stage, constants_)) {
+                    stages_[i] = compile(resampling_shader(stage), false);
+                }
+            }
+        } else {
+            path_ = compile(changes.ray_generation.empty() ? shader_binary("path.rgen") : changes.ray_generation, false);
+        }
+        const auto& previous = packed.keeps_previous ? previous_top_ : top_;
+        bindings_ = make_bindings(*gpu_, layout_, *top_.structure, *previous.structure, addresses(film_), constants_);
+        if (!resamples()) {
+            warm_up(path_, bindings_);
+        }
         queue_ = std::make_unique<TimedQueue>(
             *gpu_, [this](std::uint64_t work, double seconds) { speed_.learn(work, seconds); });
     });
@@ -71,6 +87,7 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
 SceneAddresses PathRenderer::addresses(const FilmMemory& film) const {
     SceneAddresses all = scene_addresses(scene_);
     enter_film(all, film);
+    enter_resampling(all, resampling_);
     return all;
 }
 
@@ -94,17 +111,10 @@ void PathRenderer::warm_up(const TracePipeline& pipeline, const Bindings& bindin
 
 void PathRenderer::render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
     in_context("rendering", [&] {
-        SliceCursor cursor({0, 0, constants_.size.x, constants_.size.y}, first, count);
-        while (!cursor.done() && !cancel.load()) {
-            const std::uint64_t budget = changes_.slice_budget > 0 ? changes_.slice_budget : speed_.budget();
-            const Slice slice = cursor.next(budget, gpu_->ray_tracing.maxRayDispatchInvocationCount);
-            shared::Dispatch dispatch{};
-            dispatch.origin = {slice.region.x, slice.region.y};
-            dispatch.first_sample = slice.first_sample;
-            dispatch.sample_count = slice.sample_count;
-            queue_->submit(slice.work(), [&](const vk::raii::CommandBuffer& commands) {
-                record_dispatch(commands, path_, layout_, bindings_, dispatch, slice.region.width, slice.region.height);
-            });
+        if (resamples()) {
+            render_frames(first, count, cancel);
+        } else {
+            render_paths(first, count, cancel);
         }
         queue_->drain();
     });
@@ -114,6 +124,7 @@ void PathRenderer::restart(std::uint32_t seed) {
     in_context("starting over", [&] {
         constants_.seed = seed;
         replace_constants(*gpu_, bindings_, constants_);
+        schedule_.restart();
         clear_film(*gpu_, film_);
     });
 }
@@ -130,13 +141,31 @@ void PathRenderer::move_to(const PackedScene& moment) {
         }
         move_top_level(*gpu_, moment, bottom_, top_);
         if (moment.keeps_previous) {
-            replace_structure(*gpu_, bindings_, *top_.structure);
+            replace_structures(*gpu_, bindings_, *top_.structure, *previous_top_.structure);
         }
         const std::uint32_t seed = constants_.seed;
         constants_ = moment.constants;
         constants_.seed = seed;
         replace_constants(*gpu_, bindings_, constants_);
     });
+}
+
+std::uint64_t PathRenderer::slice_budget() const {
+    return changes_.slice_budget > 0 ? changes_.slice_budget : speed_.budget();
+}
+
+void PathRenderer::render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
+    SliceCursor cursor({0, 0, constants_.size.x, constants_.size.y}, first, count);
+    while (!cursor.done() && !cancel.load()) {
+        const Slice slice = cursor.next(slice_budget(), gpu_->ray_tracing.maxRayDispatchInvocationCount);
+        shared::Dispatch dispatch{};
+        dispatch.origin = {slice.region.x, slice.region.y};
+        dispatch.first_sample = slice.first_sample;
+        dispatch.sample_count = slice.sample_count;
+        queue_->submit(slice.work(), [&](const vk::raii::CommandBuffer& commands) {
+            record_dispatch(commands, path_, layout_, bindings_, dispatch, slice.region.width, slice.region.height);
+        });
+    }
 }
 
 Film PathRenderer::film() const {

@@ -9,6 +9,7 @@
 #include "film_memory.h"
 #include "pipeline.h"
 #include "pipeline_cache.h"
+#include "resampling_passes.h"
 #include "scene_memory.h"
 #include "slices.h"
 #include "timed_queue.h"
@@ -41,6 +42,10 @@ public:
 private:
     TracePipeline compile(Spirv ray_generation, bool record_rays) const;
     SceneAddresses addresses(const FilmMemory& film) const;
+    void render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
+    void render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
+    std::uint64_t slice_budget() const;
+    bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
     void warm_up(const TracePipeline& pipeline, const Bindings& bindings) const;
 
     std::unique_ptr<Gpu> gpu_;
@@ -55,6 +60,9 @@ private:
     FilmMemory film_;
     PipelineLayout layout_;
     TracePipeline path_;
+    ResamplingMemory resampling_;
+    std::array<TracePipeline, resampling_stages> stages_;
+    ResamplingSchedule schedule_;
     Bindings bindings_;
     SpeedEstimate speed_;
     std::unique_ptr<TimedQueue> queue_;

@@ -15,6 +15,9 @@ struct SceneAddresses {
     std::uint64_t film_pixels = 0;
     std::uint64_t film_moments = 0;
     std::uint64_t film_first_hits = 0;
+    std::uint64_t first_vertices = 0;
+    std::uint64_t reservoirs = 0;
+    std::uint64_t reuse_surfaces = 0;
     std::uint64_t recorded_rays = 0;
     std::uint64_t ray_counters = 0;
 };

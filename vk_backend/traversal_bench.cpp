@@ -116,7 +116,7 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
             SceneAddresses all = addresses(film);
             all.recorded_rays = memory.rays.address;
             all.ray_counters = memory.counters.address;
-            return make_bindings(*gpu_, layout_, *top_.structure, all, constants_);
+            return make_bindings(*gpu_, layout_, *top_.structure, *top_.structure, all, constants_);
         };
         // Recorded without room, a block tells how many rays it has.
         const auto rays_of = [&](const Block& block) {

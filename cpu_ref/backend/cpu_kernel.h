@@ -30,6 +30,9 @@ struct PlainTracer {
     bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
         return scene.any(origin, direction, t_max, alpha_key);
     }
+    bool any_previous(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
+        return scene.any_previous(origin, direction, t_max, alpha_key);
+    }
 };
 
 /// Also keeps every ray, in the order in which they were traced.
@@ -77,7 +80,7 @@ struct CpuKernel {
         return tracer.any(origin, direction, t_max, alpha_key);
     }
     bool trace_any_previous(vec3 origin, vec3 direction, float t_max, uint alpha_key) const {
-        return tracer.any(origin, direction, t_max, alpha_key);
+        return tracer.any_previous(origin, direction, t_max, alpha_key);
     }
 
     const FirstVertex& load_first_vertex(uint index) const { return films->first_vertices[index]; }

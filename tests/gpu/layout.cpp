@@ -95,7 +95,24 @@ std::map<std::string, Offsets> cpp_offsets() {
           FIELD(RenderConstants, seed), FIELD(RenderConstants, sampler_kind), FIELD(RenderConstants, sample_count),
           FIELD(RenderConstants, max_depth), FIELD(RenderConstants, integrator), FIELD(RenderConstants, brdf),
           FIELD(RenderConstants, mis), FIELD(RenderConstants, light_count),
-          FIELD(RenderConstants, emissive_triangle_count), FIELD(RenderConstants, punctual_light_count)}},
+          FIELD(RenderConstants, emissive_triangle_count), FIELD(RenderConstants, punctual_light_count),
+          FIELD(RenderConstants, atlas_tile), FIELD(RenderConstants, previous_camera),
+          FIELD(RenderConstants, resampling)}},
+        {"ResamplingConstants",
+         {FIELD(ResamplingConstants, light_candidates), FIELD(ResamplingConstants, bsdf_candidates),
+          FIELD(ResamplingConstants, temporal), FIELD(ResamplingConstants, spatial_passes),
+          FIELD(ResamplingConstants, neighbors), FIELD(ResamplingConstants, radius),
+          FIELD(ResamplingConstants, confidence_cap), FIELD(ResamplingConstants, mis),
+          FIELD(ResamplingConstants, visibility)}},
+        {"ResamplingPass",
+         {FIELD(ResamplingPass, frame), FIELD(ResamplingPass, reservoirs), FIELD(ResamplingPass, other_reservoirs),
+          FIELD(ResamplingPass, surfaces), FIELD(ResamplingPass, has_history), FIELD(ResamplingPass, iteration)}},
+        {"FirstVertex", {FIELD(FirstVertex, hit), FIELD(FirstVertex, rays)}},
+        {"Reservoir", {FIELD(Reservoir, point), FIELD(Reservoir, weight), FIELD(Reservoir, confidence)}},
+        {"LightPoint", {FIELD(LightPoint, light), FIELD(LightPoint, uv)}},
+        {"ReuseSurface",
+         {FIELD(ReuseSurface, position), FIELD(ReuseSurface, geometric_normal), FIELD(ReuseSurface, normal),
+          FIELD(ReuseSurface, wo), FIELD(ReuseSurface, diffuse), FIELD(ReuseSurface, f0), FIELD(ReuseSurface, rest)}},
         {"FilmPixel",
          {FIELD(FilmPixel, sum), FIELD(FilmPixel, compensation), FIELD(FilmPixel, samples), FIELD(FilmPixel, nonfinite),
           FIELD(FilmPixel, rays), FIELD(FilmPixel, ray_wraps)}},
@@ -103,7 +120,7 @@ std::map<std::string, Offsets> cpp_offsets() {
         {"FilmFirstHit", {FIELD(FilmFirstHit, albedo), FIELD(FilmFirstHit, normal), FIELD(FilmFirstHit, depth)}},
         {"Dispatch",
          {FIELD(Dispatch, origin), FIELD(Dispatch, first_sample), FIELD(Dispatch, sample_count),
-          FIELD(Dispatch, ray_capacity), FIELD(Dispatch, first_ray)}},
+          FIELD(Dispatch, ray_capacity), FIELD(Dispatch, first_ray), FIELD(Dispatch, pass)}},
         {"RecordedRay",
          {FIELD(RecordedRay, origin), FIELD(RecordedRay, t_max), FIELD(RecordedRay, direction),
           FIELD(RecordedRay, alpha_key)}},
@@ -119,6 +136,9 @@ Offsets address_offsets() {
     offsets["film_pixels"] = offsetof(SceneAddresses, film_pixels);
     offsets["film_moments"] = offsetof(SceneAddresses, film_moments);
     offsets["film_first_hits"] = offsetof(SceneAddresses, film_first_hits);
+    offsets["first_vertices"] = offsetof(SceneAddresses, first_vertices);
+    offsets["reservoirs"] = offsetof(SceneAddresses, reservoirs);
+    offsets["reuse_surfaces"] = offsetof(SceneAddresses, reuse_surfaces);
     offsets["recorded_rays"] = offsetof(SceneAddresses, recorded_rays);
     offsets["ray_counters"] = offsetof(SceneAddresses, ray_counters);
     return offsets;
@@ -151,6 +171,9 @@ TEST_CASE("Arrays of shared structs have the stride of their size") {
     CHECK_STRIDE(FilmMoments);
     CHECK_STRIDE(FilmFirstHit);
     CHECK_STRIDE(RecordedRay);
+    CHECK_STRIDE(FirstVertex);
+    CHECK_STRIDE(Reservoir);
+    CHECK_STRIDE(ReuseSurface);
 }
 
 }  // namespace diptych::tests

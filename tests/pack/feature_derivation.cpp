@@ -116,6 +116,15 @@ const std::vector<Case>& cases() {
          0},
         {"errors", [](Scene&, RenderSettings& r) { r.standard_error = true; }, FEATURE_STANDARD_ERROR},
         {"layers", [](Scene&, RenderSettings& r) { r.first_hit_layers = true; }, FEATURE_FIRST_HIT_LAYERS},
+        {"ris", [](Scene&, RenderSettings& r) { r.integrator = Integrator::ris; }, FEATURE_RESAMPLING},
+        {"restir", [](Scene&, RenderSettings& r) { r.integrator = Integrator::restir; }, FEATURE_RESAMPLING},
+        {"restir that looks back",
+         [](Scene&, RenderSettings& r) {
+             r.integrator = Integrator::restir;
+             r.moves = true;
+         },
+         FEATURE_RESAMPLING | FEATURE_MOTION},
+        {"path that moves", [](Scene&, RenderSettings& r) { r.moves = true; }, 0},
         {"no light to sample", [](Scene&, RenderSettings& r) { r.integrator = Integrator::path; }, 0},
         {"emission that no instance has",
          [](Scene& s, RenderSettings&) {

@@ -1,0 +1,66 @@
+#include "resampling_passes.h"
+
+#include "shader_binaries.h"
+
+namespace diptych {
+namespace {
+
+Buffer film_buffer(const Gpu& gpu, const char* what, std::uint64_t bytes) {
+    return bytes == 0 ? Buffer{}
+                      : make_buffer(gpu, what, bytes,
+                                    vk::BufferUsageFlagBits::eStorageBuffer |
+                                        vk::BufferUsageFlagBits::eShaderDeviceAddress |
+                                        vk::BufferUsageFlagBits::eTransferSrc,
+                                    MemoryKind::device);
+}
+
+}  // namespace
+
+ResamplingMemory make_resampling_memory(const Gpu& gpu, const shared::RenderConstants& constants) {
+    const ResamplingSets sets = resampling_sets(constants);
+    const std::uint64_t pixels = std::uint64_t{constants.size.x} * constants.size.y;
+    return {.first_vertices = film_buffer(gpu, "first vertices", pixels * sets.first_vertices * sizeof(shared::FirstVertex)),
+            .reservoirs = film_buffer(gpu, "reservoirs", pixels * sets.reservoirs * sizeof(shared::Reservoir)),
+            .surfaces = film_buffer(gpu, "reuse surfaces", pixels * sets.surfaces * sizeof(shared::ReuseSurface))};
+}
+
+void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory) {
+    addresses.first_vertices = memory.first_vertices.address;
+    addresses.reservoirs = memory.reservoirs.address;
+    addresses.reuse_surfaces = memory.surfaces.address;
+}
+
+std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory) {
+    return memory.first_vertices.size + memory.reservoirs.size + memory.surfaces.size;
+}
+
+Spirv resampling_shader(ResamplingStage stage) {
+    switch (stage) {
+        case ResamplingStage::candidates:
+            return shader_binary("restir_candidates.rgen");
+        case ResamplingStage::temporal:
+            return shader_binary("restir_temporal.rgen");
+        case ResamplingStage::spatial:
+            return shader_binary("restir_spatial.rgen");
+        case ResamplingStage::shade:
+            break;
+    }
+    return shader_binary("restir_shade.rgen");
+}
+
+bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants) {
+    const bool resamples = constants.integrator >= shared::INTEGRATOR_RIS;
+    const bool reuses = constants.integrator == shared::INTEGRATOR_RESTIR;
+    switch (stage) {
+        case ResamplingStage::temporal:
+            return reuses && constants.resampling.temporal != 0;
+        case ResamplingStage::spatial:
+            return reuses && constants.resampling.spatial_passes > 0;
+        case ResamplingStage::candidates:
+        case ResamplingStage::shade:
+            break;
+    }
+    return resamples;
+}
+
+}  // namespace diptych

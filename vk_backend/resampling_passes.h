@@ -1,0 +1,35 @@
+// ReSTIR's passes on the device: their pipelines and what they keep for every pixel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "buffer.h"
+#include "pipeline.h"
+#include "render/resampling_schedule.h"
+#include "scene_addresses.h"
+
+namespace diptych {
+
+constexpr std::size_t resampling_stages = 4;  // of ResamplingStage
+
+struct ResamplingMemory {
+    Buffer first_vertices;
+    Buffer reservoirs;
+    Buffer surfaces;
+};
+
+/// The buffers that the constants' integrator needs.
+ResamplingMemory make_resampling_memory(const Gpu& gpu, const shared::RenderConstants& constants);
+
+void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory);
+
+std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory);
+
+/// The ray generation shader of a stage.
+Spirv resampling_shader(ResamplingStage stage);
+
+/// Whether any frame will run the stage.
+bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants);
+
+}  // namespace diptych
