@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <string_view>
 #include <thread>
 
@@ -34,6 +35,14 @@ const char* name_by_content(const Bytes& bytes) {
         return "image.gif";
     }
     return starts("RIFF") && starts("WEBP", 8) ? "image.webp" : nullptr;
+}
+
+/// One at a time: OpenImageIO reads colour profiles in `open`, and some of its versions (2.4) do so with data shared between threads,
+/// which now and then corrupted the heap where many images with profiles were decoded at once.
+std::unique_ptr<OIIO::ImageInput> open_image(const char* name, const OIIO::ImageSpec& config) {
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    return OIIO::ImageInput::open(name, &config);
 }
 
 std::string open_error(const std::string& fallback) {
@@ -70,7 +79,7 @@ TextureImage decode_image(const EncodedImage& encoded) {
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     // PNG would come premultiplied otherwise, and dark colours under low alpha would be lost.
     config.attribute("oiio:UnassociatedAlpha", 1);
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
+    const std::unique_ptr<OIIO::ImageInput> input = open_image(name, config);
     if (!input) {
         throw Error("cannot be decoded: " + open_error("unknown format"));
     }
