@@ -117,7 +117,7 @@ FN void probe_projection(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     }
 }
 
-FN void probe_words(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+FN void probe_independent_words(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     Sampler random = make_sampler(uvec2(p.words.x, p.words.y), p.words.z, p.words.w, SAMPLER_INDEPENDENT, 1u);
     put_bits4(o, independent_words(random, p.set.x));
 }
@@ -131,7 +131,7 @@ FN void probe_words(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     X(similar, 8, 500, "nothing but its answer")                                                                       \
     X(pack_surface, 8, 100, "a coordinate may round to the next step")                                                 \
     X(projection, 16, 50, "dot products and three divisions")                                                          \
-    X(words, 0, 0, "integers")
+    X(independent_words, 0, 0, "integers")
 
 SHARED_END
 
