@@ -40,8 +40,11 @@ void pack_settings(const RenderSettings& settings, shared::RenderConstants& c) {
 }  // namespace
 
 void keep_previous(PackedScene& packed) {
+    if (packed.constants.integrator != shared::INTEGRATOR_RESTIR) {
+        return;
+    }
     packed.constants.previous_camera = packed.constants.camera;
-    if ((packed.features & shared::FEATURE_MOTION) != 0 && packed.constants.integrator == shared::INTEGRATOR_RESTIR) {
+    if ((packed.features & shared::FEATURE_MOTION) != 0) {
         packed.previous_instances = packed.instances;
         packed.previous_emissive_triangles = packed.emissive_triangles;
         packed.previous_punctual_lights = packed.punctual_lights;

@@ -1,0 +1,122 @@
+// ReSTIR against `path`, frame by frame: early frames, later ones, and scenes whose lights and occluders change under the reservoirs.
+#include "backend/cpu_renderer.h"
+#include "catch.h"
+#include "chains.h"
+#include "render/settings_names.h"
+#include "scene/generate.h"
+
+namespace diptych::tests {
+namespace {
+
+std::unique_ptr<Renderer> on_cpu(const PackedScene& packed) { return make_cpu_renderer(packed, 0); }
+
+Scene generated(const std::string& name, int count = 0) {
+    GenerateOptions options;
+    if (count > 0) {
+        options.count = count;
+    }
+    return generate_scene(name, options).scene;
+}
+
+ChainCase chain_case(const std::string& name, Scene scene) {
+    ChainCase c;
+    c.name = name;
+    c.scene = std::move(scene);
+    c.settings.integrator = Integrator::restir;
+    c.settings.max_depth = 1;
+    c.settings.resampling.neighbors = 3;
+    c.settings.resampling.radius = 5;
+    return c;
+}
+
+std::string variant_name(const ResamplingSettings& s) {
+    return std::string(name_of(s.mis)) + ", visibility in " + name_of(s.visibility);
+}
+
+/// Every frame's mean against the reference's. |z| < 4.5: 6.8e-6 a frame.
+void check_frames(const ChainCase& c, const std::vector<std::uint32_t>& frames, double widest_percent,
+                  const ChainSize& size = {}) {
+    const auto means = run_chains(c, size, frames, on_cpu, 17);
+    std::vector<double> reference;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        if (i == 0 || c.seconds > 0 || c.orbit != 0) {
+            reference = run_reference(c, size, frames[i], 16, 64, on_cpu);
+        }
+        const Difference d = difference(means[i], reference);
+        INFO(c.name << ", " << variant_name(c.settings.resampling) << ", frame " << frames[i] << ": " << d.percent
+                    << " % +- " << d.half_width << " %, z " << d.z);
+        CHECK(std::abs(d.z) < 4.5);
+        CHECK(d.half_width < widest_percent);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("restir is unbiased at every frame, whatever its weights and wherever it puts visibility") {
+    for (const ResamplingMis mis : {ResamplingMis::pairwise, ResamplingMis::balance, ResamplingMis::one_over_z}) {
+        for (const ResamplingVisibility visibility : {ResamplingVisibility::shading, ResamplingVisibility::target}) {
+            ChainCase c = chain_case("many lights", generated("many-lights", 300));
+            c.settings.resampling.mis = mis;
+            c.settings.resampling.visibility = visibility;
+            check_frames(c, {0, 1, 8}, 12);
+        }
+    }
+}
+
+TEST_CASE("restir is unbiased in a box with one light, the rest of the path included") {
+    ChainCase c = chain_case("cornell", generated("cornell"));
+    c.settings.max_depth = 3;
+    check_frames(c, {0, 1, 2, 8}, 2);
+    c.settings.resampling.spatial_passes = 2;
+    check_frames(c, {0, 1, 2, 8}, 2);
+}
+
+TEST_CASE("restir is unbiased where lights switch and move, and an occluder with them") {
+    // The lamp switches on at 1 s, another off at 2 s (scenes/README.md).
+    ChainCase c = chain_case("moving light", generated("moving-light"));
+    c.seconds = 0.125;
+    c.start = 0.5;
+    check_frames(c, {0, 1, 3, 4, 5, 11, 12, 13}, 4);
+    c.settings.resampling.visibility = ResamplingVisibility::target;
+    check_frames(c, {0, 1, 4, 12}, 4);
+}
+
+TEST_CASE("restir is unbiased under a moving camera") {
+    ChainCase c = chain_case("orbit", generated("cornell"));
+    c.orbit = 3;
+    check_frames(c, {0, 1, 4, 8}, 1.5);
+}
+
+TEST_CASE("ris is unbiased on glossy surfaces, where material sampling finds the light too") {
+    for (const Integrator integrator : {Integrator::ris, Integrator::restir}) {
+        ChainCase c = chain_case("veach", generated("veach-mis"));
+        c.settings.integrator = integrator;
+        check_frames(c, {0, 3}, 20);
+    }
+}
+
+TEST_CASE("Long chains of restir stay unbiased", "[nightly]") {
+    const ChainSize many{16, 32};
+    const std::vector<std::uint32_t> frames{0, 1, 2, 4, 8, 16, 64};
+    ChainCase lights = chain_case("many lights", generated("many-lights", 300));
+    check_frames(lights, frames, 3, many);
+    ChainCase box = chain_case("cornell", generated("cornell"));
+    box.settings.max_depth = 3;
+    check_frames(box, frames, 0.5, many);
+    ChainCase moving = chain_case("moving light", generated("moving-light"));
+    moving.seconds = 1.0 / 24;
+    check_frames(moving, frames, 1, many);
+    ChainCase glossy = chain_case("veach", generated("veach-mis"));
+    check_frames(glossy, frames, 5, many);
+}
+
+TEST_CASE("The biased weights and shortcuts are what their names say") {
+    ChainCase c = chain_case("many lights", generated("many-lights", 300));
+    const std::vector<double> reference = run_reference(c, {}, 8, 16, 64, on_cpu);
+    c.settings.resampling.mis = ResamplingMis::biased_one_over_m;
+    const Difference one_over_m = difference(run_chains(c, {}, {8}, on_cpu, 17)[0], reference);
+    INFO("1/M: " << one_over_m.percent << " % +- " << one_over_m.half_width);
+    CHECK(one_over_m.z < -4.5);
+}
+
+}  // namespace diptych::tests
