@@ -114,7 +114,7 @@ TEST_CASE("The biased weights and shortcuts are what their names say") {
     ChainCase c = chain_case("many lights", generated("many-lights", 300));
     const std::vector<double> reference = run_reference(c, {}, 8, 16, 64, on_cpu);
     c.settings.resampling.mis = ResamplingMis::biased_one_over_m;
-    const Difference one_over_m = difference(run_chains(c, {}, {8}, on_cpu, 17)[0], reference);
+    const Difference one_over_m = difference(run_chains(c, {16, 16}, {8}, on_cpu, 17)[0], reference);
     INFO("1/M: " << one_over_m.percent << " % +- " << one_over_m.half_width);
     CHECK(one_over_m.z < -4.5);
 }
