@@ -57,7 +57,7 @@ FN Resampling begin_resampling() {
 
 /// A candidate of resampling weight w = m p̂(y) W; u in [0, 1). What is not a positive finite number is passed over.
 FN void add_candidate(INOUT(Resampling) s, IN(LightPoint) point, float target, float w, float u) {
-    if (!(target > TARGET_MIN) || !(w > 0.0f && w < INFINITE_DISTANCE)) {
+    if (!(target > MUTANT(TARGET_CUT_OFF, TARGET_MIN, 0.1f)) || !(w > 0.0f && w < INFINITE_DISTANCE)) {
         return;
     }
     s.weight_sum += w;
@@ -72,6 +72,7 @@ FN Reservoir end_resampling(IN(Resampling) s, float scale, float confidence) {
     Reservoir r;
     r.point = s.point;
     r.weight = s.target > 0.0f ? scale * (s.weight_sum / s.target) : 0.0f;
+    r.weight = MUTANT(RESERVOIR_CLAMPED, r.weight, min(r.weight, 1.0f));
     r.confidence = confidence;
     if (!(r.weight > 0.0f && r.weight < INFINITE_DISTANCE)) {
         r.point = no_light_point();

@@ -71,7 +71,8 @@ FN Resampling add_bsdf_candidate(IN(Resampling) lights, IN(TargetSurface) surfac
         }
         if (pdf_bsdf > 0.0f) {
             rays += 1u;
-            pdf_bsdf = is_light_occluded(surface, light, lights.point, MOMENT_CURRENT) ? 0.0f : pdf_bsdf;
+            bool unseen = MUTANT(BSDF_CANDIDATE_BLIND, is_light_occluded(surface, light, lights.point, MOMENT_CURRENT), false);
+            pdf_bsdf = unseen ? 0.0f : pdf_bsdf;
         }
         float pdf_lights = count * pdf_light_point(lights.point);
         float share = pdf_lights / (pdf_lights + pdf_bsdf);
@@ -120,15 +121,15 @@ FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
                 vec3 origin = offset_ray(surface.position, bsdf.geometric_normal);
                 chosen = add_bsdf_candidate(chosen, target, bsdf, seen, origin, path.random, vertex.rays);
             }
-            reservoir = end_resampling(chosen, 1.0f, 1.0f);
-            bool tests_visibility = constants.resampling.visibility == VISIBILITY_IN_TARGET ||
+            reservoir = end_resampling(chosen, 1.0f, MUTANT(CONFIDENCE_BY_SAMPLE, 1.0f, clamp(chosen.target, 0.1f, 10.0f)));
+            bool tests_visibility = MUTANT(INITIAL_CULL, false, true) || constants.resampling.visibility == VISIBILITY_IN_TARGET ||
                                     constants.resampling.visibility == VISIBILITY_BIASED_INITIAL;
             if (tests_visibility && reservoir.weight > 0.0f) {
                 SeenLight light = see_light_point(reservoir.point, target.position, MOMENT_CURRENT);
                 vertex.rays += 1u;
                 if (is_light_occluded(target, light, reservoir.point, MOMENT_CURRENT)) {
                     reservoir = empty_reservoir();
-                    reservoir.confidence = 1.0f;
+                    reservoir.confidence = MUTANT(CULL_TAKES_CONFIDENCE, 1.0f, 0.0f);
                 }
             }
         }
@@ -190,7 +191,7 @@ FN void reuse_temporal(uvec2 pixel, IN(ResamplingPass) pass) {
     others.pixels[0] = pixel_index(uvec2(first.x + uint(place.x), first.y + uint(place.y)));
     others.reservoir_set = pass.other_reservoirs;
     others.surface_set = 1u - pass.surfaces;
-    others.moment = MOMENT_PREVIOUS;
+    others.moment = MUTANT(REUSE_CURRENT_LIGHTS, MOMENT_PREVIOUS, MOMENT_CURRENT);
     others.confidence_cap = constants.resampling.confidence_cap;
     ReuseSurface expected = kept;
     expected.position = before;
@@ -220,7 +221,7 @@ FN void reuse_spatial(uvec2 pixel, IN(ResamplingPass) pass) {
     reuse_bounds(pixel, first, size);
     vec2 center = vec2(float(pixel.x - first.x) + 0.5f, float(pixel.y - first.y) + 0.5f);
     Sampler random = make_sampler(pixel, pass.frame, constants.seed, constants.sampler_kind, constants.sample_count);
-    uint dimension = pass.iteration * (RESAMPLING_MAX_NEIGHBORS + 1u);
+    uint dimension = MUTANT(PASSES_SHARE_SEED, pass.iteration, 0u) * (RESAMPLING_MAX_NEIGHBORS + 1u);
     Neighborhood others;
     others.count = 0u;
     others.reservoir_set = pass.reservoirs;
@@ -267,7 +268,8 @@ FN PathState begin_resampled_path(uvec2 pixel, IN(ResamplingPass) pass) {
 
 /// Hands no point on that proved shadowed, if that bias was asked for.
 FN void keep_final_visibility(uvec2 pixel, IN(ResamplingPass) pass, bool occluded) {
-    if (constants.resampling.visibility == VISIBILITY_BIASED_FINAL && occluded) {
+    bool asked_for = constants.resampling.visibility == VISIBILITY_BIASED_FINAL;
+    if (MUTANT(FINAL_CULL, asked_for, true) && occluded) {
         uint index = pixel_index(pixel);
         Reservoir r = load_reservoir(pass.reservoirs, index);
         r.weight = 0.0f;

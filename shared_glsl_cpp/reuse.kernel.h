@@ -32,7 +32,7 @@ FN bool is_light_occluded(IN(TargetSurface) s, IN(SeenLight) light, IN(LightPoin
     vec3 origin = offset_ray(s.position, s.geometric_normal);
     vec3 direction = light.distant ? light.direction : light.end - origin;
     float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
-    if (feature(FEATURE_MOTION) && moment == MOMENT_PREVIOUS) {
+    if (feature(FEATURE_MOTION) && moment == MUTANT(REUSE_CURRENT_OCCLUDERS, MOMENT_PREVIOUS, NONE)) {
         return trace_any_previous(origin, direction, t_max, visibility_key(y));
     }
     return trace_any(origin, direction, t_max, visibility_key(y));
@@ -67,6 +67,7 @@ FN float own_target_at(IN(TargetSurface) s, IN(LightPoint) y, uint moment) {
 FN Reservoir neighbor_reservoir(IN(Neighborhood) others, uint i) {
     Reservoir r = load_reservoir(others.reservoir_set, others.pixels[i]);
     r.confidence = min(r.confidence, others.confidence_cap);
+    r.confidence = MUTANT(REUSE_SKIPS_EMPTY, r.confidence, r.weight > 0.0f ? r.confidence : 0.0f);
     return r;
 }
 
@@ -94,13 +95,17 @@ FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, fl
             float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
             if (here > 0.0f) {
                 float there = own_target_at(surface, r.point, others.moment);
-                float share = pairwise_neighbor_share(r.confidence, there, own.confidence, here, others_confidence);
+                float share = MUTANT(REUSE_ONE_OVER_M,
+                                     pairwise_neighbor_share(r.confidence, there, own.confidence, here, others_confidence),
+                                     r.confidence / (others_confidence + own.confidence));
                 add_candidate(chosen, r.point, here, share * here * r.weight, pick_number(random, dimension, i));
             }
         }
         if (own_target > 0.0f) {
             float there = target_at(surface, own.point, others.moment, rays);
-            own_share += pairwise_canonical_share(r.confidence, there, own.confidence, own_target, others_confidence);
+            own_share += MUTANT(REUSE_ONE_OVER_M,
+                                pairwise_canonical_share(r.confidence, there, own.confidence, own_target, others_confidence),
+                                0.0f);
         }
     }
     if (own_target > 0.0f) {

@@ -37,8 +37,8 @@ FN Sampler make_sampler(uvec2 pixel, uint sample_index, uint seed, uint kind, ui
 
 /// Four independent words of a dimension that is not drawn by the pair.
 FN uvec4 independent_words(IN(Sampler) s, uint dimension) {
-    uvec4 v = pcg4d(uvec4(s.key.x, s.key.y, s.sample_index, dimension));
-    return v;
+    uint index = MUTANT(RESAMPLING_SEED_FROZEN, s.sample_index, 0u);
+    return pcg4d(uvec4(s.key.x, s.key.y, index, dimension));
 }
 
 FN uvec2 independent_bits_2d(IN(Sampler) s, uint dimension) {

@@ -95,6 +95,13 @@ TEST_CASE("ris is unbiased on glossy surfaces, where material sampling finds the
     }
 }
 
+TEST_CASE("Two spatial passes draw apart", "[nightly]") {
+    ChainCase c = chain_case("cornell", generated("cornell"));
+    c.settings.resampling.spatial_passes = 2;
+    c.settings.resampling.radius = 3;
+    check_frames(c, {0, 4, 16}, 0.3, {16, 48});
+}
+
 TEST_CASE("Long chains of restir stay unbiased", "[nightly]") {
     const ChainSize many{16, 32};
     const std::vector<std::uint32_t> frames{0, 1, 2, 4, 8, 16, 64};
