@@ -167,9 +167,19 @@ TEST_CASE("The biased weights and shortcuts are what their names say") {
     ChainCase c = chain_case("many lights", generated("many-lights", 300));
     const std::vector<double> reference = run_reference(c, {}, 8, 48, 256, on_cpu);
     c.settings.resampling.mis = ResamplingMis::biased_one_over_m;
-    const Difference one_over_m = difference(run_chains(c, {16, 16}, {8}, on_cpu, 17)[0], reference);
+    const Difference one_over_m = difference(run_chains(c, {16, 32}, {8}, on_cpu, 17)[0], reference);
     INFO("1/M: " << one_over_m.percent << " % +- " << one_over_m.half_width);
     CHECK(one_over_m.z < -4.5);
+
+    ChainCase striped = chain_case("slats", slats(false));
+    const std::vector<double> truth = run_reference(striped, {}, 8, 32, 128, on_cpu);
+    for (const ResamplingVisibility shortcut :
+         {ResamplingVisibility::biased_initial, ResamplingVisibility::biased_final}) {
+        striped.settings.resampling.visibility = shortcut;
+        const Difference loss = difference(run_chains(striped, {}, {8}, on_cpu, 17)[0], truth);
+        INFO(name_of(shortcut) << ": " << loss.percent << " % +- " << loss.half_width);
+        CHECK(loss.z < -4.5);
+    }
 }
 
 }  // namespace diptych::tests
