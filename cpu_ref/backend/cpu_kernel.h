@@ -21,6 +21,7 @@ struct TracedRay {
 
 /// Traces over Embree and does nothing else.
 struct PlainTracer {
+    static constexpr bool records_paths = false;
     const EmbreeScene& scene;
 
     EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
@@ -33,6 +34,7 @@ struct PlainTracer {
 
 /// Also keeps every ray, in the order in which they were traced.
 struct RecordingTracer {
+    static constexpr bool records_paths = false;
     const EmbreeScene& scene;
     std::vector<TracedRay>& rays;
 
@@ -43,6 +45,25 @@ struct RecordingTracer {
     bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
         rays.push_back({origin, direction, t_max, true, alpha_key});
         return scene.any(origin, direction, t_max, alpha_key);
+    }
+};
+
+/// Also begins a record for every vertex, which RECORD then fills.
+struct PathRecorder {
+    static constexpr bool records_paths = true;
+    const EmbreeScene& scene;
+    std::vector<shared::PathVertexRecord>& vertices;
+
+    EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
+        const EmbreeHit h = scene.closest(origin, direction, alpha_key);
+        const shared::Hit hit{h.instance, h.geometry, h.primitive, glm::vec2(h.u, h.v), h.t};
+        vertices.push_back(shared::begin_vertex_record(direction, hit));
+        return h;
+    }
+    bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
+        const bool blocked = scene.any(origin, direction, t_max, alpha_key);
+        vertices.back().shadow = blocked ? shared::SHADOW_BLOCKED : shared::SHADOW_FREE;
+        return blocked;
     }
 };
 
@@ -75,7 +96,12 @@ struct CpuKernel {
         return tracer.any(origin, direction, t_max, alpha_key);
     }
 
+#define RECORD(field, value)                       \
+    if constexpr (Tracer::records_paths) {         \
+        tracer.vertices.back().field = (value);    \
+    }
 #include "path.kernel.h"
+#undef RECORD
 };
 
 }  // namespace shared

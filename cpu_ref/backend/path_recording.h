@@ -1,0 +1,19 @@
+// Paths traced over Embree for what they did, not for a film.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "embree_scene.h"
+#include "pack/packed_scene.h"
+#include "render/recorded_path.h"
+
+namespace diptych {
+
+/// Run within the arena that is to do the work.
+std::vector<RecordedPath> record_paths(const PackedScene& packed, const EmbreeScene& scene,
+                                       std::span<const shared::PathQuery> queries);
+std::vector<shared::PathSummary> summarize_paths(const PackedScene& packed, const EmbreeScene& scene,
+                                                 std::span<const shared::PathQuery> queries);
+
+}  // namespace diptych
