@@ -182,9 +182,10 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     }
     vec3 wo = -path.direction;
     LOCAL(Instance) instance = load_instances(hit.instance);
-    Surface surface = load_surface(hit, instance, wo);
+    Surface surface = load_surface(hit, instance, path.origin, path.direction);
     LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
     RECORD(position, surface.position);
+    RECORD(barycentrics, vec2(surface.mesh.weights.y, surface.mesh.weights.z));
     add_emission(path, surface, material);
 
     bool last = MUTANT(DEPTH_OFF_BY_ONE, depth == constants.max_depth, depth > constants.max_depth) ||
