@@ -52,8 +52,21 @@ void print(const std::string& name, const RenderSettings& settings, const Paired
                 z[2], name_of(report.verdict), report.reason.c_str());
 }
 
-void check_scene(const std::string& name, const RenderSettings& settings, std::uint32_t spp) {
-    Pair pair = make_pair_of(load_own_scene(name), settings, settings);
+/// A lamp with a shade so close before it that a shadow ray cut short by a hundredth would miss it.
+Scene shaded_lamp() {
+    Scene scene;
+    scene.name = "shaded lamp";
+    const int grey = add_material(scene, diffuse_material(0.7F));
+    const int light = add_material(scene, make_emitter("lamp", {1, 1, 1}));
+    add_object(scene, "floor", {horizontal_square(glm::vec3(0), 2, true, grey)});
+    add_object(scene, "lamp", {horizontal_square(glm::vec3(0, 1, 0), 0.25F, false, light)});
+    add_object(scene, "shade", {horizontal_square(glm::vec3(0, 0.995F, 0), 0.15F, true, grey)});
+    scene.cameras.push_back(make_camera("camera", {0, 0.6, 3}, {0, 0.5, 0}, 45));
+    return scene;
+}
+
+void check_scene(const std::string& name, const Scene& scene, const RenderSettings& settings, std::uint32_t spp) {
+    Pair pair = make_pair_of(scene, settings, settings);
     const PairedReport report = compare_paths(pair, settings, spp);
     print(name, settings, report);
     INFO(name << " " << name_of(settings.integrator) << ": " << report.reason);
@@ -65,15 +78,16 @@ void check_scene(const std::string& name, const RenderSettings& settings, std::u
 TEST_CASE("Paths on both panels decide alike from the same random numbers") {
     NEED_VULKAN();
     for (const std::string name : {"cornell", "veach-mis", "brdf-grid", "courtyard"}) {
-        check_scene(name, paired_settings(32, 24, Integrator::path, BrdfModel::ggx), 16);
+        check_scene(name, load_own_scene(name), paired_settings(32, 24, Integrator::path, BrdfModel::ggx), 16);
     }
+    check_scene("shaded lamp", shaded_lamp(), paired_settings(32, 24, Integrator::path, BrdfModel::ggx), 16);
 }
 
 TEST_CASE("All paths on both panels decide alike, on every scene of ours", "[nightly]") {
     NEED_VULKAN();
     for (const std::string& name : own_scenes()) {
         for (const Integrator integrator : integrators) {
-            check_scene(name, paired_settings(128, 96, integrator, BrdfModel::ggx), 32);
+            check_scene(name, load_own_scene(name), paired_settings(128, 96, integrator, BrdfModel::ggx), 32);
         }
     }
 }
