@@ -37,7 +37,8 @@ void check_pair(const PairArguments& pair) {
     }
 }
 
-std::vector<std::unique_ptr<Renderer>> make_renderers(const PackedScene& packed, const PairArguments& pair) {
+std::vector<std::unique_ptr<Renderer>> make_renderers(const Scene& scene, const PackedScene& packed,
+                                                      const PairArguments& pair) {
     std::vector<std::unique_ptr<Renderer>> renderers;
     for (const std::string& name : pair.backends) {
         RenderRequest request;
@@ -45,7 +46,7 @@ std::vector<std::unique_ptr<Renderer>> make_renderers(const PackedScene& packed,
         request.device = pair.device;
         request.threads = pair.threads;
         request.validation = pair.validation;
-        renderers.push_back(make_renderer(packed, request));
+        renderers.push_back(make_renderer(scene, packed, request));
     }
     return renderers;
 }

@@ -25,7 +25,8 @@ void add_pair_options(CLI::App& command, PairArguments& pair);
 /// Throws Error for a backend that does not exist, or is named twice, or an option that goes with none of them.
 void check_pair(const PairArguments& pair);
 
-/// In the order asked for. `packed` must outlive them.
-std::vector<std::unique_ptr<Renderer>> make_renderers(const PackedScene& packed, const PairArguments& pair);
+/// In the order asked for. Scene and pack must outlive them.
+std::vector<std::unique_ptr<Renderer>> make_renderers(const Scene& scene, const PackedScene& packed,
+                                                      const PairArguments& pair);
 
 }  // namespace diptych::app

@@ -74,7 +74,7 @@ int run_replay(Options options) {
     Replay replay;
     replay.tolerance = options.tolerance;
     replay.origin = glm::dvec3(scene.cameras[static_cast<std::size_t>(settings.camera)].camera_to_world[3]);
-    for (const std::unique_ptr<Renderer>& renderer : make_renderers(packed, options.pair)) {
+    for (const std::unique_ptr<Renderer>& renderer : make_renderers(scene, packed, options.pair)) {
         replay.backends.push_back(renderer->backend());
         replay.devices.push_back(renderer->device());
         replay.paths.push_back(renderer->record_paths({&query, 1}).front());

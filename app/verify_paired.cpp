@@ -47,7 +47,7 @@ PairedRun run_one(const Scene& scene, RenderSettings settings, const PairArgumen
                   Image& differing) {
     const auto start = std::chrono::steady_clock::now();
     const PackedScene packed = pack_scene(scene, settings);
-    const std::vector<std::unique_ptr<Renderer>> renderers = make_renderers(packed, pair);
+    const std::vector<std::unique_ptr<Renderer>> renderers = make_renderers(scene, packed, pair);
     PairedRun run;
     run.integrator = settings.integrator;
     for (const auto& renderer : renderers) {

@@ -17,8 +17,8 @@ struct PairedOptions {
     bool json = false;
 };
 
-/// `arguments` have been through resolve_names; two backends are named. Prints the report. Returns exit_check_failed where an
-/// integrator fails.
+/// `arguments` have been through resolve_names; two backends are named. Prints the report. Returns exit_check_failed
+/// where an integrator fails.
 int run_paired(RenderArguments arguments, const PairArguments& pair, const PairedOptions& options);
 
 }  // namespace diptych::app
