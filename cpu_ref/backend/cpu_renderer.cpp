@@ -77,10 +77,10 @@ public:
     TraversalBench bench_traversal(std::uint32_t samples) override;
 
     std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery> queries) override {
-        return arena_.execute([&] { return diptych::record_paths(packed_, *scene_, queries); });
+        return arena_.execute([&] { return diptych::record_paths(*packed_, constants_, *scene_, queries); });
     }
     std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery> queries) override {
-        return arena_.execute([&] { return diptych::summarize_paths(packed_, *scene_, queries); });
+        return arena_.execute([&] { return diptych::summarize_paths(*packed_, constants_, *scene_, queries); });
     }
 
 private:

@@ -12,10 +12,11 @@ using Queries = std::span<const shared::PathQuery>;
 
 /// Calls `keep(index, vertices, radiance)` for every path.
 template <class Keep>
-void trace_paths(const PackedScene& packed, const EmbreeScene& scene, Queries queries, const Keep& keep) {
+void trace_paths(const PackedScene& packed, const shared::RenderConstants& constants, const EmbreeScene& scene,
+                 Queries queries, const Keep& keep) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 64), [&](const auto& range) {
         std::vector<shared::PathVertexRecord> vertices;
-        shared::CpuKernel<PathRecorder, ~0U> kernel{packed, packed.constants, {scene, vertices}};
+        shared::CpuKernel<PathRecorder, ~0U> kernel{packed, constants, {scene, vertices}};
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             vertices.clear();
             const auto sample = kernel.trace_path(queries[i].pixel, queries[i].sample_index);
@@ -26,17 +27,20 @@ void trace_paths(const PackedScene& packed, const EmbreeScene& scene, Queries qu
 
 }  // namespace
 
-std::vector<RecordedPath> record_paths(const PackedScene& packed, const EmbreeScene& scene, Queries queries) {
+std::vector<RecordedPath> record_paths(const PackedScene& packed, const shared::RenderConstants& constants,
+                                       const EmbreeScene& scene, Queries queries) {
     std::vector<RecordedPath> paths(queries.size());
-    trace_paths(packed, scene, queries, [&](std::size_t i, const auto& vertices, const glm::vec3& radiance) {
+    trace_paths(packed, constants, scene, queries, [&](std::size_t i, const auto& vertices, const glm::vec3& radiance) {
         paths[i] = {vertices, radiance};
     });
     return paths;
 }
 
-std::vector<shared::PathSummary> summarize_paths(const PackedScene& packed, const EmbreeScene& scene, Queries queries) {
+std::vector<shared::PathSummary> summarize_paths(const PackedScene& packed,
+                                                 const shared::RenderConstants& constants, const EmbreeScene& scene,
+                                                 Queries queries) {
     std::vector<shared::PathSummary> summaries(queries.size());
-    trace_paths(packed, scene, queries, [&](std::size_t i, const auto& vertices, const glm::vec3& radiance) {
+    trace_paths(packed, constants, scene, queries, [&](std::size_t i, const auto& vertices, const glm::vec3& radiance) {
         shared::PathSummary summary = shared::begin_path_summary();
         for (const shared::PathVertexRecord& vertex : vertices) {
             shared::summarize_vertex(summary, vertex);
