@@ -204,7 +204,8 @@ int run_paired(RenderArguments arguments, const PairArguments& pair, const Paire
     } else {
         fmt::print("{}\n", name_of(verdict));
     }
-    return verdict == PairedVerdict::fail ? exit_check_failed : exit_done;
+    const bool fails = verdict == PairedVerdict::fail || (options.require_pass && verdict != PairedVerdict::pass);
+    return fails ? exit_check_failed : exit_done;
 }
 
 }  // namespace diptych::app

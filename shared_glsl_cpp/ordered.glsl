@@ -1,5 +1,5 @@
 // GLSL leaves the order of a dot product's sum open, and with it the last bit of whatever is normalised. Here it is C++'s, without
-// contraction; on a chain of curved and bumpy surfaces that bit decides where the path goes (docs/decisions/0005).
+// contraction; on a chain of curved and bumpy surfaces that bit decides where the path goes (docs/decisions/0006).
 vec3 xyz(vec4 v) { return v.xyz; }
 
 float ordered_dot(vec2 a, vec2 b) {

@@ -82,3 +82,26 @@ TEST_CASE("replay refuses what it cannot replay", "[app]") {
                   {"--device", "vulkan"});
     check_refusal(run_diptych(folder, {"replay", folder.file("no.gltf"), "--pixel", "1,1"}), 2, {"no.gltf"});
 }
+
+TEST_CASE("verify --paired compares panels path by path", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const std::vector<std::string> paired = {"verify", scene, "--paired",      "--size", "32", "--spp",
+                                             "4",      "--integrators", "path", "--json", "-o", folder.path().string()};
+    const ProcessResult result = run_diptych(folder, paired);
+    if (result.exit_code == 3 || contains(result.err, "DIPTYCH_VULKAN=OFF")) {
+        SKIP_TEST("no Vulkan device with ray tracing");
+    }
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const auto json = nlohmann::json::parse(result.out);
+    CHECK(json.at("verdict") == "PASS");
+    CHECK(json.at("backends") == nlohmann::json::array({"cpu", "vulkan"}));
+    const auto& pair = json.at("pairs").at(0);
+    CHECK(pair.at("paths") == 32 * 32 * 4);
+    CHECK(pair.at("alike_percent").get<double>() > 99.9);
+    CHECK(pair.at("vertices").at(0).at("paths") == 32 * 32 * 4);
+    CHECK(std::filesystem::exists(pair.at("output").get<std::string>()));
+    check_refusal(run_diptych(folder, {"verify", scene, "--paired", "--runs", "8"}), 2, {"--paired", "--runs"});
+    check_refusal(run_diptych(folder, {"verify", scene, "--paired", "--against", "oracle"}), 2, {"oracle"});
+}
