@@ -92,7 +92,7 @@ int exit_code_of(Verdict verdict, bool require_pass) {
 }
 
 /// --paired: the first backend against the reference, or two backends with one another.
-int run_paired(const VerifyOptions& options) {
+int verify_paths(const VerifyOptions& options) {
     PairArguments pair;
     pair.backends = options.backends;
     if (pair.backends.size() == 1) {
@@ -119,7 +119,7 @@ int run_paired(const VerifyOptions& options) {
 int run_verify(VerifyOptions options) {
     check_options(options);
     if (options.paired) {
-        return run_paired(options);
+        return verify_paths(options);
     }
     const std::vector<PairName> pairs = plan_pairs(options);
     const Scene scene = prepare_scene(options.arguments);
