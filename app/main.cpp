@@ -45,6 +45,7 @@ int run_program(int argc, char** argv) {
     add_generate(app, run);
     add_bench(app, run);
     add_verify(app, run);
+    add_replay(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {

@@ -9,7 +9,9 @@
 #include "error.h"
 #include "interrupt.h"
 #include "report.h"
+#include "render/settings_names.h"
 #include "scene_setup.h"
+#include "verify_paired.h"
 #include "verify_report.h"
 
 namespace diptych::app {
@@ -23,6 +25,7 @@ constexpr const char* examples = R"(Examples:
   diptych verify cornell.gltf --backends cpu --integrators brdf,direct --against cpu/path --spp 256 -o figures
   diptych verify scene.glb --backends vulkan --against cpu --time 600 --require-pass --json
   diptych verify cornell.gltf --fresh-seeds --time 3600
+  diptych verify cornell.gltf --paired --spp 16
 Renders each side --runs times, every run with a seed of its own, and compares the runs' means by Welch's test: of the image, of all
 tiles together (Fisher), and of the least likely tile. FAIL: more than chance would do, over all pairs together, at --alpha. PASS: no such
 difference, and the intervals are narrow enough for one to be seen. INCONCLUSIVE: neither; more samples would tell. Exit code 1 on FAIL, and
@@ -60,7 +63,7 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::vector<PairName> check_options(VerifyOptions& options) {
+void check_options(VerifyOptions& options) {
     if (options.arguments.size.empty()) {
         options.arguments.size = default_size;
     }
@@ -81,7 +84,6 @@ std::vector<PairName> check_options(VerifyOptions& options) {
     if (!options.output.empty()) {
         prepare_folder(options.output);
     }
-    return plan_pairs(options);
 }
 
 int exit_code_of(Verdict verdict, bool require_pass) {
@@ -89,8 +91,37 @@ int exit_code_of(Verdict verdict, bool require_pass) {
     return fails ? exit_check_failed : exit_done;
 }
 
+/// --paired: the first backend against the reference, or two backends with one another.
+int verify_paths(const VerifyOptions& options) {
+    PairArguments pair;
+    pair.backends = options.backends;
+    if (pair.backends.size() == 1) {
+        pair.backends.insert(pair.backends.begin(), options.against);
+    }
+    const RenderRequest& request = options.arguments.request;
+    pair.device = request.device;
+    pair.threads = request.threads;
+    pair.validation = request.validation;
+    PairedOptions paired;
+    paired.integrators.clear();
+    for (const std::string& name : options.integrators) {
+        paired.integrators.push_back(integrator_from_name(name));
+    }
+    paired.spp = options.spp;
+    paired.folder = options.output;
+    paired.json = options.json;
+    paired.require_pass = options.require_pass;
+    RenderArguments arguments = options.arguments;
+    arguments.request.settings.seed = options.seed;
+    return run_paired(arguments, pair, paired);
+}
+
 int run_verify(VerifyOptions options) {
-    const std::vector<PairName> pairs = check_options(options);
+    check_options(options);
+    if (options.paired) {
+        return verify_paths(options);
+    }
+    const std::vector<PairName> pairs = plan_pairs(options);
     const Scene scene = prepare_scene(options.arguments);
     const std::uint32_t seed =
         options.fresh_seeds && !options.seed_given ? static_cast<std::uint32_t>(std::random_device{}()) : options.seed;
@@ -136,12 +167,15 @@ void add_verify(CLI::App& app, Run& run) {
             "--against", options->against,
             "Reference: BACKEND, under the same integrator, or BACKEND/INTEGRATOR for all; or oracle, or oracle/MODE")
         ->capture_default_str();
-    command->add_option("--runs", options->runs, "Renders a side")->check(CLI::Range(2, 4096))->capture_default_str();
+    CLI::Option* runs = command->add_option("--runs", options->runs, "Renders a side")
+                            ->check(CLI::Range(2, 4096))
+                            ->capture_default_str();
     CLI::Option* spp = command->add_option("--spp", options->spp, "Samples a pixel of each run")
                            ->check(CLI::Range(1U, 1U << 30U))
                            ->capture_default_str();
-    command
-        ->add_option("--time", options->seconds,
+    CLI::Option* time =
+        command
+            ->add_option("--time", options->seconds,
                      "Double the samples until every pair has power or so many seconds are used up")
         ->check(CLI::Range(0.001, 1e9))
         ->check(finite_number())
@@ -164,9 +198,15 @@ void add_verify(CLI::App& app, Run& run) {
         ->capture_default_str();
     CLI::Option* seed = command->add_option("--seed", options->seed, "First of the seeds, which go on from there")
                             ->capture_default_str();
-    command->add_flag(
+    CLI::Option* fresh = command->add_flag(
         "--fresh-seeds", options->fresh_seeds,
         "Seeds by chance, unless --seed repeats such a run; what fails is tried again with four times the samples");
+    command
+        ->add_flag("--paired", options->paired,
+                   "Instead: trace each path on both panels from the same random numbers, and compare them one by one")
+        ->excludes(runs)
+        ->excludes(time)
+        ->excludes(fresh);
     command->add_flag("--require-pass", options->require_pass, "Exit 1 on INCONCLUSIVE too");
     add_scene_options(*command, options->arguments);
     command->add_option("--device", request.device, "Vulkan device by index or name; the best by default");

@@ -6,16 +6,18 @@
 
 SHARED_BEGIN
 
-/// The push constants: which pixels and samples; when rays are recorded, for how many there is room.
+/// The push constants: which pixels and samples; when rays or paths are recorded, for how much there is room.
 struct Dispatch {
     uvec2 origin;  // first pixel
     uint first_sample;
     uint sample_count;
     uint ray_capacity;
     uint first_ray;  // of this dispatch, when recorded rays are traced again
+    uint first_path;         // of this dispatch, when listed paths are traced
+    uint vertices_per_path;  // that are kept of each
     ResamplingPass pass;
 };
-ASSERT_SIZE(Dispatch, 48);
+ASSERT_SIZE(Dispatch, 56);
 
 /// One ray as the integrator asked for it.
 struct RecordedRay {

@@ -7,6 +7,7 @@
 
 #include "dispatch.h"
 #include "film_pixel.h"
+#include "path_record.h"
 #include "scene_buffers.h"
 #include "resampling_memory.h"
 #include "scene_features.h"
@@ -46,6 +47,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer reservoirs_b
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer reuse_surfaces_buffer { ReuseSurface data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer recorded_rays_buffer { RecordedRay data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ray_counters_buffer { RayCounters data; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer path_queries_buffer { PathQuery data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer path_vertices_buffer { PathVertexRecord data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer path_summaries_buffer { PathSummary data[]; };
 
 // Mirrored by vk_backend/scene_addresses.h.
 layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
@@ -60,6 +64,9 @@ layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
     reuse_surfaces_buffer reuse_surfaces;
     recorded_rays_buffer recorded_rays;
     ray_counters_buffer ray_counters;
+    path_queries_buffer path_queries;
+    path_vertices_buffer path_vertices;
+    path_summaries_buffer path_summaries;
 } addresses;
 
 layout(set = 0, binding = 2, scalar) uniform Constants { RenderConstants constants; };

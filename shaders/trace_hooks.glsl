@@ -5,6 +5,10 @@
 #include "scene_hooks.glsl"
 #include "payload.glsl"
 
+#ifndef RECORD
+#define RECORD(field, value)
+#endif
+
 layout(constant_id = 1) const uint RECORD_RAYS = 0u;
 
 layout(push_constant, scalar) uniform DispatchBlock { Dispatch value; } dispatch_block;

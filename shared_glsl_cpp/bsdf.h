@@ -9,6 +9,7 @@
 #include "blinn_phong.h"
 #include "fresnel.h"
 #include "ggx.h"
+#include "lobes.h"
 #include "sampling.h"
 #include "scene_features.h"
 #include "scene_types.h"
@@ -32,6 +33,7 @@ struct BsdfSample {
     vec3 weight;     // f cos / pdf
     float pdf;       // per steradian; 0 for a null sample; of a delta, the discrete probability
     uint delta;      // 1: a perfect mirror
+    uint lobe;       // LOBE_… | FACET_…, for records of what was chosen
 };
 
 /// f cos and the pdf of one pair of directions.
@@ -135,6 +137,7 @@ FN BsdfSample bsdf_null_sample() {
     s.weight = vec3(0.0f, 0.0f, 0.0f);
     s.pdf = 0.0f;
     s.delta = 0u;
+    s.lobe = LOBE_NONE;
     return s;
 }
 
@@ -151,6 +154,7 @@ FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float p_specular,
         s.weight = fresnel_schlick(p.f0, p.f90, wo.z) / p_specular;
         s.pdf = p_specular;
         s.delta = 1u;
+        s.lobe = LOBE_MIRROR;
         return s;
     }
     if (specular) {
@@ -173,6 +177,7 @@ FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float p_specular,
     if (r.pdf > 0.0f) {
         s.weight = p_specular > 0.0f ? r.value * (1.0f / r.pdf) : p.diffuse;
         s.pdf = r.pdf;
+        s.lobe = specular ? LOBE_SPECULAR : LOBE_DIFFUSE;
     }
     return s;
 }

@@ -14,13 +14,13 @@ FN void camera_ray(IN(Camera) c, vec2 film, vec2 lens, bool thin_lens, bool orth
                    OUT(vec3) direction) {
     float x = 2.0f * film.x - 1.0f;
     float y = 1.0f - 2.0f * film.y;
-    vec3 across = x * c.right + y * c.up;
+    PRECISE vec3 across = x * c.right + y * c.up;
     if (orthographic_allowed && c.kind == CAMERA_ORTHOGRAPHIC) {
         origin = c.origin + across;
         direction = c.forward;
         return;
     }
-    vec3 toward = c.forward + across;
+    PRECISE vec3 toward = c.forward + across;
     origin = c.origin;
     if (thin_lens && c.lens_radius > 0.0f && c.focus_distance > 0.0f) {
         vec2 disk = sample_disk_concentric(lens) * c.lens_radius;

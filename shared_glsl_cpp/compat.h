@@ -82,7 +82,7 @@ uint multiply_high(uint a, uint b) {
     umulExtended(a, b, high, low);
     return high;
 }
-vec3 xyz(vec4 v) { return v.xyz; }
+#include "ordered.glsl"
 
 #else
 #error "shared headers compile as C++ or as Vulkan GLSL"

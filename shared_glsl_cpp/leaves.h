@@ -11,6 +11,7 @@
 #include "frame.h"
 #include "hit.h"
 #include "mis.h"
+#include "path_record.h"
 #include "ray_offset.h"
 #include "resampling_memory.h"
 #include "reservoir.h"

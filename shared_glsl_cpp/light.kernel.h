@@ -190,6 +190,7 @@ FN LightSample sample_light(vec3 reference, IN(FourPairs) draws, IN(Sampler) ran
     }
     uint column = alias_column(draws.first.z, constants.light_count);
     uint id = alias_pick(load_light_table(column), column, draws.second.z);
+    RECORD(light, id);
     vec2 u = vec2(unit_float(draws.first.w), unit_float(draws.second.w));
     if (feature(FEATURE_EMISSIVE) && id < constants.emissive_triangle_count) {
         return sample_emitter(id, reference, u);

@@ -81,6 +81,7 @@ FN DirectLight sample_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) b
                                    IN(FourPairs) draws, IN(Sampler) random, uint dimension) {
     DirectLight direct = no_direct_light();
     LightSample light = sample_light(position, draws, random, dimension);
+    RECORD(light_pdf, light.pdf);
     if (!(light.pdf > 0.0f) || is_black(light.radiance)) {
         return direct;
     }
@@ -167,11 +168,15 @@ FN void add_environment(INOUT(PathState) path) {
         return;
     }
     vec3 radiance = environment_radiance(path.direction);
+    RECORD(emission_weight, 1.0f);
     if (!path.only_strategy) {
         float pdf_light = needs_light_pdf() ? pdf_environment(path.direction) : 0.0f;
-        radiance = radiance * bsdf_sampling_weight(path.pdf_direction, pdf_light);
+        float weight = bsdf_sampling_weight(path.pdf_direction, pdf_light);
+        radiance = radiance * weight;
+        RECORD(emission_weight, weight);
     }
     path.found.radiance += path.throughput * radiance;
+    RECORD(emission, path.throughput * radiance);
 }
 
 /// Light that the surface hit emits toward the path.
@@ -185,7 +190,10 @@ FN void add_emission(INOUT(PathState) path, IN(Surface) surface, IN(Material) ma
             weight = bsdf_sampling_weight(path.pdf_direction, pdf_light);
         }
         weight = MUTANT(EMISSION_TWICE, weight, path.depth == 1u ? 2.0f * weight : weight);
-        path.found.radiance += path.throughput * (weight * material_emission(material, surface.mesh));
+        vec3 emission = path.throughput * (weight * material_emission(material, surface.mesh));
+        path.found.radiance += emission;
+        RECORD(emission, emission);
+        RECORD(emission_weight, weight);
     }
 }
 
@@ -205,8 +213,10 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     }
     vec3 wo = -path.direction;
     LOCAL(Instance) instance = load_instances(hit.instance);
-    Surface surface = load_surface(hit, instance, wo);
+    Surface surface = load_surface(hit, instance, path.origin, path.direction);
     LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
+    RECORD(position, surface.position);
+    RECORD(barycentrics, vec2(surface.mesh.weights.y, surface.mesh.weights.z));
     add_emission(path, surface, material);
 
     bool last = MUTANT(DEPTH_OFF_BY_ONE, depth == constants.max_depth, depth > constants.max_depth) ||
@@ -216,6 +226,7 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
         return;
     }
     SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
+    RECORD(normal, bsdf.mapped_normal);
     if (wants_layers) {
         path.found.first_hit.albedo = xyz(base_color(material, surface.mesh));
         path.found.first_hit.normal = bsdf.mapped_normal;
@@ -235,6 +246,7 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     } else if (feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features())) {
         path.direct = sample_direct_light(surface.position, path.origin, bsdf, seen, draws, path.random, dimension);
         path.direct.radiance = path.throughput * path.direct.radiance;
+        RECORD(direct, path.direct.radiance);
     }
 
     vec2 u_direction = vec2(unit_float(draws.first.x), unit_float(draws.second.x));
@@ -252,7 +264,12 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
         float u = sample_1d(path.random, dimension + DIMENSION_ROULETTE);
         goes_on = u < survival;
         path.throughput = path.throughput * MUTANT(ROULETTE_NOT_DIVIDED, 1.0f / survival, 1.0f);
+        RECORD(survival, survival);
+        RECORD(roulette, goes_on ? ROULETTE_SURVIVED : ROULETTE_KILLED);
     }
+    RECORD(lobe, next.lobe);
+    RECORD(bsdf_pdf, next.pdf);
+    RECORD(throughput, path.throughput);
     path.pdf_direction = next.pdf;
     path.reference = surface.position;
     path.direction = next.direction;

@@ -109,7 +109,7 @@ FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
     if (vertex.hit.instance != NONE && constants.max_depth > 0u) {
         vec3 wo = -path.direction;
         LOCAL(Instance) instance = load_instances(vertex.hit.instance);
-        Surface surface = load_surface(vertex.hit, instance, wo);
+        Surface surface = load_surface(vertex.hit, instance, path.origin, path.direction);
         LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
         SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
         if ((material.flags & MATERIAL_UNLIT) == 0u && !bsdf_is_purely_delta(bsdf.parameters, features())) {

@@ -56,17 +56,43 @@ FN vec3 normalize_or(vec3 v, vec3 fallback) {
     return w * inversesqrt(dot(w, w));
 }
 
-FN Surface load_surface(IN(Hit) hit, IN(Instance) instance, vec3 wo) {
+/// Where a ray meets a triangle (Möller and Trumbore 1997), as barycentrics of the second and third vertex within it. `fallback` where
+/// ray and triangle are parallel.
+FN vec2 meet_triangle(vec3 origin, vec3 direction, vec3 vertex, vec3 edge_1, vec3 edge_2, vec2 fallback) {
+    vec3 p = exact_cross(direction, edge_2);
+    PRECISE vec3 from_vertex = origin - vertex;
+    vec3 q = exact_cross(from_vertex, edge_1);
+    PRECISE float determinant = edge_1.x * p.x + edge_1.y * p.y + edge_1.z * p.z;
+    PRECISE float u = from_vertex.x * p.x + from_vertex.y * p.y + from_vertex.z * p.z;
+    PRECISE float v = direction.x * q.x + direction.y * q.y + direction.z * q.z;
+    if (!(abs(determinant) > 0.0f)) {
+        return fallback;
+    }
+    PRECISE float inverse = 1.0f / determinant;
+    PRECISE vec2 inside = vec2(max(u * inverse, 0.0f), max(v * inverse, 0.0f));
+    PRECISE float sum = inside.x + inside.y;
+    PRECISE vec2 met = inside * (1.0f / max(sum, 1.0f));
+    return met;
+}
+
+/// The surface that a ray from `origin` along `direction` was found to meet. Every intersector rounds the place where they meet in its
+/// own way; it is computed anew, so that the same ray meets the same point on every backend.
+FN Surface load_surface(IN(Hit) hit, IN(Instance) instance, vec3 origin, vec3 direction) {
     Surface s;
     LOCAL(Geometry) g = load_geometries(instance.first_geometry + hit.geometry);
-    s.mesh = mesh_point(g, hit.primitive, hit.barycentrics);
-    vec3 a = load_positions(g.first_vertex + s.mesh.triangle.x);
-    vec3 b = load_positions(g.first_vertex + s.mesh.triangle.y);
-    vec3 c = load_positions(g.first_vertex + s.mesh.triangle.z);
-    PRECISE vec3 local = a + hit.barycentrics.x * (b - a) + hit.barycentrics.y * (c - a);
+    uvec3 triangle = load_triangles(g.first_triangle + hit.primitive);
+    vec3 a = load_positions(g.first_vertex + triangle.x);
+    vec3 b = load_positions(g.first_vertex + triangle.y);
+    vec3 c = load_positions(g.first_vertex + triangle.z);
+    vec3 edge_1 = transform_vector(instance, b - a);
+    vec3 edge_2 = transform_vector(instance, c - a);
+    vec2 barycentrics =
+        meet_triangle(origin, direction, transform_point(instance, a), edge_1, edge_2, hit.barycentrics);
+    s.mesh = mesh_point(g, hit.primitive, barycentrics);
+    PRECISE vec3 local = a + barycentrics.x * (b - a) + barycentrics.y * (c - a);
     s.position = transform_point(instance, local);
-    vec3 n = exact_cross(transform_vector(instance, b - a), transform_vector(instance, c - a));
-    s.normal = normalize_or(instance.mirrored != 0u ? -n : n, wo);
+    vec3 n = exact_cross(edge_1, edge_2);
+    s.normal = normalize_or(instance.mirrored != 0u ? -n : n, -direction);
     s.instance = hit.instance;
     s.primitive = hit.primitive;
     s.emitter_slot =

@@ -130,12 +130,14 @@ FN BsdfSample mapped_sample(IN(BsdfParameters) p, IN(MappedNormal) m, vec3 wo, v
     BsdfSample r = bsdf_sample_in_frame(p, frame, start, u_lobe.x, u, features);
     float path = on_facet ? p_facet : 1.0f - p_facet;
     float thinning = 1.0f;
+    r.lobe |= on_facet ? FACET_MAPPED : FACET_TANGENT;
     if (on_facet) {
         float escape = mapped_masking(m, r.direction);
         if (u_lobe.y < p_facet * escape) {
             path *= escape;
         } else {
             path *= 1.0f - escape;
+            r.lobe |= FACET_TANGENT;
             r.direction = mapped_reflect(m, r.direction);
             thinning = mapped_masking(m, r.direction);
         }

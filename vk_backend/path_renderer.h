@@ -36,6 +36,8 @@ public:
     double device_seconds() const override { return queue_->seconds(); }
     Film film() const override;
     TraversalBench bench_traversal(std::uint32_t samples) override;
+    std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery> queries) override;
+    std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery> queries) override;
 
     const BottomLevels& bottom_levels() const { return bottom_; }
 
@@ -47,6 +49,8 @@ private:
     std::uint64_t slice_budget() const;
     bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
     void warm_up(const TracePipeline& pipeline, const Bindings& bindings) const;
+    void trace_listed(std::span<const shared::PathQuery> queries, std::uint32_t vertices_per_path,
+                      const Buffer& vertices, const Buffer& summaries);
 
     std::unique_ptr<Gpu> gpu_;
     shared::RenderConstants constants_;
@@ -67,6 +71,12 @@ private:
     SpeedEstimate speed_;
     std::unique_ptr<TimedQueue> queue_;
     RendererCosts costs_;
+    // record.rgen and what is known of its speed; made when first asked for.
+    struct Recorder {
+        TracePipeline pipeline;
+        SpeedEstimate speed;
+    };
+    std::unique_ptr<Recorder> recorder_;
 };
 
 /// Shaders of shaders/ under a ray generation shader; any-hit shaders only where `alpha`.

@@ -20,6 +20,9 @@ struct SceneAddresses {
     std::uint64_t reuse_surfaces = 0;
     std::uint64_t recorded_rays = 0;
     std::uint64_t ray_counters = 0;
+    std::uint64_t path_queries = 0;
+    std::uint64_t path_vertices = 0;
+    std::uint64_t path_summaries = 0;
 };
 
 }  // namespace diptych

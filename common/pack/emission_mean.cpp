@@ -24,7 +24,9 @@ struct EmissionKernel {
     SCENE_BUFFERS(DEFINE_LOAD)
 #undef DEFINE_LOAD
 
+#define RECORD(field, value)
 #include "light.kernel.h"
+#undef RECORD
 };
 
 }  // namespace

@@ -30,82 +30,108 @@ const char* yes_or_no(bool value) {
     return value ? "yes" : "no";
 }
 
+template <class Value>
+void add_option(std::string& command, const char* option, const Value& value) {
+    command += fmt::format(" {} {}", option, shell_quoted(fmt::format("{}", value)));
+}
+
+void add_resampling_options(std::string& command, const RenderSettings& settings) {
+    const ResamplingSettings& resampling = settings.resampling;
+    add_option(command, "--candidates", resampling.light_candidates);
+    command += resampling.bsdf_candidate ? " --bsdf-candidate" : " --no-bsdf-candidate";
+    command += resampling.temporal ? " --temporal" : " --no-temporal";
+    add_option(command, "--spatial-passes", resampling.spatial_passes);
+    add_option(command, "--neighbors", resampling.neighbors);
+    add_option(command, "--reuse-radius", resampling.radius);
+    add_option(command, "--confidence-cap", resampling.confidence_cap);
+    add_option(command, "--reuse-mis", name_of(resampling.mis));
+    add_option(command, "--reuse-visibility", name_of(resampling.visibility));
+    add_option(command, "--atlas", settings.atlas_tile);
+}
+
+/// All that decides which picture it is, but for the integrator.
+void add_picture_options(std::string& command, const RenderRequest& request) {
+    const RenderSettings& settings = request.settings;
+    add_option(command, "--size", fmt::format("{}x{}", settings.width, settings.height));
+    add_option(command, "--max-depth", settings.max_depth);
+    add_option(command, "--seed", settings.seed);
+    add_option(command, "--brdf", name_of(settings.brdf));
+    const bool oracle = request.backend == "oracle";  // which has no sampler or weights
+    if (!oracle) {
+        add_option(command, "--sampler", name_of(settings.sampler));
+        add_option(command, "--mis", name_of(settings.mis));
+    }
+    if (!oracle && settings.sampler == SamplerKind::hammersley) {
+        add_option(command, "--sample-count", settings.sample_count);
+    }
+    if (!oracle && (settings.integrator == Integrator::ris || settings.integrator == Integrator::restir)) {
+        add_resampling_options(command, settings);
+    }
+    if (!request.camera.empty()) {
+        add_option(command, "--camera", request.camera);
+    }
+    if (!request.environment.empty()) {
+        add_option(command, "--env", request.environment);
+    }
+    if (request.environment_scale != 1) {
+        add_option(command, "--env-scale", request.environment_scale);
+    }
+    if (request.environment_rotation != 0) {
+        add_option(command, "--env-rotate", request.environment_rotation);
+    }
+    if (request.lens_radius) {
+        add_option(command, "--aperture", *request.lens_radius);
+    }
+    if (request.focus_distance) {
+        add_option(command, "--focus", *request.focus_distance);
+    }
+}
+
 }  // namespace
 
 std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
     const RenderSettings& settings = request.settings;
     std::string command = "diptych render " + shell_quoted(request.scene);
-    const auto add = [&](const char* option, const auto& value) {
-        command += fmt::format(" {} {}", option, shell_quoted(fmt::format("{}", value)));
-    };
     for (const std::string& extension : request.ignored_extensions) {
-        add("--ignore-extension", extension);
+        add_option(command, "--ignore-extension", extension);
     }
-    add("-o", request.output);
-    add("--backend", request.backend);
+    add_option(command, "-o", request.output);
+    add_option(command, "--backend", request.backend);
     if (!request.device.empty()) {
-        add("--device", request.device);
+        add_option(command, "--device", request.device);
     }
-    const bool oracle = request.backend == "oracle";  // which is told by mode, and has no sampler or weights
-    if (oracle) {
-        add("--oracle-mode", request.oracle_mode);
+    if (request.backend == "oracle") {
+        add_option(command, "--oracle-mode", request.oracle_mode);
     } else {
-        add("--integrator", name_of(settings.integrator));
+        add_option(command, "--integrator", name_of(settings.integrator));
     }
-    add("--spp", spp);
-    add("--size", fmt::format("{}x{}", settings.width, settings.height));
-    add("--max-depth", settings.max_depth);
-    add("--seed", settings.seed);
-    add("--brdf", name_of(settings.brdf));
-    if (!oracle) {
-        add("--sampler", name_of(settings.sampler));
-        add("--mis", name_of(settings.mis));
-    }
-    if (!oracle && settings.sampler == SamplerKind::hammersley) {
-        add("--sample-count", settings.sample_count);
-    }
-    if (!oracle && (settings.integrator == Integrator::ris || settings.integrator == Integrator::restir)) {
-        const ResamplingSettings& resampling = settings.resampling;
-        add("--candidates", resampling.light_candidates);
-        command += resampling.bsdf_candidate ? " --bsdf-candidate" : " --no-bsdf-candidate";
-        command += resampling.temporal ? " --temporal" : " --no-temporal";
-        add("--spatial-passes", resampling.spatial_passes);
-        add("--neighbors", resampling.neighbors);
-        add("--reuse-radius", resampling.radius);
-        add("--confidence-cap", resampling.confidence_cap);
-        add("--reuse-mis", name_of(resampling.mis));
-        add("--reuse-visibility", name_of(resampling.visibility));
-        add("--atlas", settings.atlas_tile);
-    }
-    if (!request.camera.empty()) {
-        add("--camera", request.camera);
-    }
-    if (!request.environment.empty()) {
-        add("--env", request.environment);
-    }
-    if (request.environment_scale != 1) {
-        add("--env-scale", request.environment_scale);
-    }
-    if (request.environment_rotation != 0) {
-        add("--env-rotate", request.environment_rotation);
-    }
-    if (request.lens_radius) {
-        add("--aperture", *request.lens_radius);
-    }
-    if (request.focus_distance) {
-        add("--focus", *request.focus_distance);
-    }
+    add_option(command, "--spp", spp);
+    add_picture_options(command, request);
     if (request.frames > 0) {
-        add("--frames", request.frames);
-        add("--fps", request.fps);
-        add("--start", request.start);
+        add_option(command, "--frames", request.frames);
+        add_option(command, "--fps", request.fps);
+        add_option(command, "--start", request.start);
     }
     if (request.orbit != 0) {
-        add("--orbit", request.orbit);
+        add_option(command, "--orbit", request.orbit);
     }
-    add("--exposure", request.exposure);
-    add("--tonemap", request.tonemap);
+    add_option(command, "--exposure", request.exposure);
+    add_option(command, "--tonemap", request.tonemap);
     command += settings.standard_error ? " --layers" : " --no-layers";
+    command += settings.generic ? " --generic" : "";
+    return command;
+}
+
+std::string replay_command(const RenderRequest& request, const shared::PathQuery& path) {
+    const RenderSettings& settings = request.settings;
+    std::string command = "diptych replay " + shell_quoted(request.scene);
+    for (const std::string& extension : request.ignored_extensions) {
+        add_option(command, "--ignore-extension", extension);
+    }
+    add_option(command, "--pixel", fmt::format("{},{}", path.pixel.x, path.pixel.y));
+    add_option(command, "--sample", path.sample_index);
+    add_option(command, "--integrator", name_of(settings.integrator));
+    add_picture_options(command, request);
     command += settings.generic ? " --generic" : "";
     return command;
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "path_record.h"
 #include "render/render_request.h"
 
 namespace diptych {
@@ -24,6 +25,9 @@ struct RenderOutcome {
 /// The command line that repeats a render of `spp` samples to the bit: every setting that matters, shell-quoted, files
 /// as given.
 std::string repeat_command(const RenderRequest& request, std::uint32_t spp);
+
+/// The command line that replays one of its paths.
+std::string replay_command(const RenderRequest& request, const shared::PathQuery& path);
 
 /// Values by name; "command" is repeat_command of what was reached.
 std::map<std::string, std::string> render_metadata(const RenderRequest& request, const RenderOutcome& outcome);

@@ -3,9 +3,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "error.h"
 #include "render/film.h"
+#include "render/recorded_path.h"
 
 namespace diptych {
 
@@ -60,6 +64,14 @@ public:
 
     /// Measures `samples` samples a pixel, leaving the film alone.
     virtual TraversalBench bench_traversal(std::uint32_t samples) = 0;
+
+    /// Traces the paths listed, leaving the film alone, and returns all that each of them did, or a summary for the many. Throws Error
+    /// where the backend cannot.
+    virtual std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery>) { refuse_paths(); }
+    virtual std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery>) { refuse_paths(); }
+
+private:
+    [[noreturn]] void refuse_paths() const { throw Error("--backend " + backend() + ": keeps no record of its paths"); }
 };
 
 }  // namespace diptych

@@ -22,6 +22,7 @@ struct TracedRay {
 
 /// Traces over Embree and does nothing else.
 struct PlainTracer {
+    static constexpr bool records_paths = false;
     const EmbreeScene& scene;
 
     EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
@@ -37,6 +38,7 @@ struct PlainTracer {
 
 /// Also keeps every ray, in the order in which they were traced.
 struct RecordingTracer {
+    static constexpr bool records_paths = false;
     const EmbreeScene& scene;
     std::vector<TracedRay>& rays;
 
@@ -47,6 +49,25 @@ struct RecordingTracer {
     bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
         rays.push_back({origin, direction, t_max, true, alpha_key});
         return scene.any(origin, direction, t_max, alpha_key);
+    }
+};
+
+/// Also begins a record for every vertex, which RECORD then fills.
+struct PathRecorder {
+    static constexpr bool records_paths = true;
+    const EmbreeScene& scene;
+    std::vector<shared::PathVertexRecord>& vertices;
+
+    EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
+        const EmbreeHit h = scene.closest(origin, direction, alpha_key);
+        const shared::Hit hit{h.instance, h.geometry, h.primitive, glm::vec2(h.u, h.v), h.t};
+        vertices.push_back(shared::begin_vertex_record(direction, hit));
+        return h;
+    }
+    bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
+        const bool blocked = scene.any(origin, direction, t_max, alpha_key);
+        vertices.back().shadow = blocked ? shared::SHADOW_BLOCKED : shared::SHADOW_FREE;
+        return blocked;
     }
 };
 
@@ -98,7 +119,12 @@ struct CpuKernel {
         films->surfaces[set * films->pixels + index] = s;
     }
 
+#define RECORD(field, value)                       \
+    if constexpr (Tracer::records_paths) {         \
+        tracer.vertices.back().field = (value);    \
+    }
 #include "restir.kernel.h"
+#undef RECORD
 };
 
 }  // namespace shared

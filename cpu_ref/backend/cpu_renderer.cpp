@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "backend/cpu_kernel.h"
+#include "backend/path_recording.h"
 
 namespace diptych {
 namespace {
@@ -83,6 +84,13 @@ public:
     double device_seconds() const override { return seconds_; }
     Film film() const override { return film_; }
     TraversalBench bench_traversal(std::uint32_t samples) override;
+
+    std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery> queries) override {
+        return arena_.execute([&] { return diptych::record_paths(*packed_, constants_, *scene_, queries); });
+    }
+    std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery> queries) override {
+        return arena_.execute([&] { return diptych::summarize_paths(*packed_, constants_, *scene_, queries); });
+    }
 
 private:
     void clear_film() {

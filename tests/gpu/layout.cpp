@@ -5,6 +5,7 @@
 #include "../../shaders/dispatch.h"
 #include "catch.h"
 #include "film_pixel.h"
+#include "path_record.h"
 #include "scene_addresses.h"
 #include "scene_types.h"
 #include "shader_binaries.h"
@@ -120,10 +121,22 @@ std::map<std::string, Offsets> cpp_offsets() {
         {"FilmFirstHit", {FIELD(FilmFirstHit, albedo), FIELD(FilmFirstHit, normal), FIELD(FilmFirstHit, depth)}},
         {"Dispatch",
          {FIELD(Dispatch, origin), FIELD(Dispatch, first_sample), FIELD(Dispatch, sample_count),
-          FIELD(Dispatch, ray_capacity), FIELD(Dispatch, first_ray), FIELD(Dispatch, pass)}},
+          FIELD(Dispatch, ray_capacity), FIELD(Dispatch, first_ray), FIELD(Dispatch, first_path),
+          FIELD(Dispatch, vertices_per_path), FIELD(Dispatch, pass)}},
         {"RecordedRay",
          {FIELD(RecordedRay, origin), FIELD(RecordedRay, t_max), FIELD(RecordedRay, direction),
           FIELD(RecordedRay, alpha_key)}},
+        {"PathQuery", {FIELD(PathQuery, pixel), FIELD(PathQuery, sample_index)}},
+        {"PathSummary",
+         {FIELD(PathSummary, radiance), FIELD(PathSummary, vertices), FIELD(PathSummary, signature)}},
+        {"PathVertexRecord",
+         {FIELD(PathVertexRecord, direction), FIELD(PathVertexRecord, instance), FIELD(PathVertexRecord, position),
+          FIELD(PathVertexRecord, geometry), FIELD(PathVertexRecord, normal), FIELD(PathVertexRecord, primitive),
+          FIELD(PathVertexRecord, emission), FIELD(PathVertexRecord, emission_weight), FIELD(PathVertexRecord, direct),
+          FIELD(PathVertexRecord, light_pdf), FIELD(PathVertexRecord, throughput), FIELD(PathVertexRecord, bsdf_pdf),
+          FIELD(PathVertexRecord, barycentrics), FIELD(PathVertexRecord, t), FIELD(PathVertexRecord, survival),
+          FIELD(PathVertexRecord, light), FIELD(PathVertexRecord, shadow), FIELD(PathVertexRecord, lobe),
+          FIELD(PathVertexRecord, roulette)}},
         {"RayCounters", {FIELD(RayCounters, closest), FIELD(RayCounters, any), FIELD(RayCounters, impossible)}},
     };
 }
@@ -141,6 +154,9 @@ Offsets address_offsets() {
     offsets["reuse_surfaces"] = offsetof(SceneAddresses, reuse_surfaces);
     offsets["recorded_rays"] = offsetof(SceneAddresses, recorded_rays);
     offsets["ray_counters"] = offsetof(SceneAddresses, ray_counters);
+    offsets["path_queries"] = offsetof(SceneAddresses, path_queries);
+    offsets["path_vertices"] = offsetof(SceneAddresses, path_vertices);
+    offsets["path_summaries"] = offsetof(SceneAddresses, path_summaries);
     return offsets;
 }
 
@@ -174,6 +190,9 @@ TEST_CASE("Arrays of shared structs have the stride of their size") {
     CHECK_STRIDE(FirstVertex);
     CHECK_STRIDE(Reservoir);
     CHECK_STRIDE(ReuseSurface);
+    CHECK_STRIDE(PathQuery);
+    CHECK_STRIDE(PathSummary);
+    CHECK_STRIDE(PathVertexRecord);
 }
 
 }  // namespace diptych::tests

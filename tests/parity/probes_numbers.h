@@ -169,6 +169,32 @@ FN void probe_film_first_hit(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put(o, film.depth, 1.0f);
 }
 
+FN void probe_path_record(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    Hit hit;
+    hit.instance = (p.words.x & 7u) == 0u ? NONE : p.words.x;
+    hit.geometry = p.words.y;
+    hit.primitive = p.words.z;
+    hit.barycentrics = vec2(p.u.x, p.u.y);
+    hit.t = p.number;
+    PathVertexRecord vertex = begin_vertex_record(p.axis, hit);
+    put_bits(o, vertex.geometry);
+    put_bits(o, floatBitsToUint(vertex.t));
+    put_same3(o, vertex.direction);
+    vertex.light = p.words.w;
+    vertex.lobe = p.words.y & 15u;
+    vertex.shadow = p.words.z % 3u;
+    put_bits(o, vertex_decisions(vertex));
+    PathSummary summary = begin_path_summary();
+    for (uint i = 0u; i < p.words.w % 20u; i++) {
+        summarize_vertex(summary, vertex);
+        vertex.roulette = i % 3u;
+    }
+    put_bits(o, summary.vertices);
+    put_bits(o, summary.signature[0]);
+    put_bits(o, summary.signature[5]);
+    put_bits(o, summary.signature[SIGNATURE_VERTICES - 1u]);
+}
+
 SHARED_END
 
 // See probe_list.h.
@@ -186,6 +212,7 @@ SHARED_END
     X(power, 1, 0, "precise log2 and exp2 about one product")                                                          \
     X(film_sums, 0, 0, "precise: a compensated sum that rounds otherwise is none")                                     \
     X(film_moments, 0, 0, "precise sums of one product")                                                               \
-    X(film_first_hit, 4, 0, "one division")
+    X(film_first_hit, 4, 0, "one division")                                                                            \
+    X(path_record, 0, 0, "integers and copies")
 
 #endif

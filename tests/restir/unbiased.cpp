@@ -165,7 +165,7 @@ TEST_CASE("Long chains of restir stay unbiased", "[nightly]") {
 
 TEST_CASE("The biased weights and shortcuts are what their names say") {
     ChainCase c = chain_case("many lights", generated("many-lights", 300));
-    const ChainSize size{16, 16};
+    const ChainSize size{16, 32};
     // Against the unbiased weights, which are far less noisy here than `path` is.
     const std::vector<double> unbiased = run_chains(c, size, {8}, on_cpu, 18)[0];
     c.settings.resampling.mis = ResamplingMis::biased_one_over_m;
