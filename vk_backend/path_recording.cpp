@@ -35,7 +35,7 @@ void PathRenderer::trace_listed(Queries queries, std::uint32_t vertices_per_path
     all.path_queries = list.address;
     all.path_vertices = vertices.address;
     all.path_summaries = summaries.address;
-    const Bindings bindings = make_bindings(*gpu_, layout_, *top_.structure, all, constants_);
+    const Bindings bindings = make_bindings(*gpu_, layout_, *top_.structure, *top_.structure, all, constants_);
     TimedQueue queue(*gpu_, [&](std::uint64_t work, double seconds) { recorder_->speed.learn(work, seconds); });
     for (std::uint64_t first = 0; first < queries.size();) {
         const std::uint64_t limit = gpu_->ray_tracing.maxRayDispatchInvocationCount;
