@@ -86,7 +86,7 @@ bool render_stage(const Stage& stage, Sides& sides, const std::atomic<bool>& can
             return false;
         }
         const double rendering = now() - start;
-        const std::vector<TileComparison> comparisons = compare(sides, {.permutations = 0});  // for their widths
+        const std::vector<TileComparison> comparisons = compare(sides, {.resamplings = 0});  // for their widths
         if (std::all_of(comparisons.begin(), comparisons.end(),
                         [&](const TileComparison& c) { return has_power(c, stage.limits); })) {
             break;

@@ -29,13 +29,13 @@ struct Moments {
     }
 };
 
-/// Covariance of the mean.
-Matrix3 mean_covariance(const Moments& moments, std::size_t count, std::size_t rank) {
+/// Covariance of the mean, `lost` degrees of freedom fewer than runs.
+Matrix3 mean_covariance(const Moments& moments, std::size_t count, std::size_t rank, double lost = 1) {
     const double n = static_cast<double>(count);
     Matrix3 covariance{};
     for (std::size_t i = 0; i < rank; ++i) {
         for (std::size_t j = i; j < rank; ++j) {
-            const double value = (moments.products[i][j] - moments.sum[i] * moments.sum[j] / n) / (n - 1) / n;
+            const double value = (moments.products[i][j] - moments.sum[i] * moments.sum[j] / n) / (n - lost) / n;
             covariance[i][j] = value;
             covariance[j][i] = value;
         }
@@ -64,11 +64,12 @@ double trace_terms(const Matrix3& s, const Matrix3& m, std::size_t rank) {
     return trace * trace + trace_of_square;
 }
 
-double p_of_moments(const Moments& a, const Moments& b, std::size_t count_a, std::size_t count_b, std::size_t rank) {
+double p_of_moments(const Moments& a, const Moments& b, std::size_t count_a, std::size_t count_b, std::size_t rank,
+                    double lost) {
     const double n_a = static_cast<double>(count_a);
     const double n_b = static_cast<double>(count_b);
-    const Matrix3 from_a = mean_covariance(a, count_a, rank);
-    const Matrix3 from_b = mean_covariance(b, count_b, rank);
+    const Matrix3 from_a = mean_covariance(a, count_a, rank, lost);
+    const Matrix3 from_b = mean_covariance(b, count_b, rank, lost);
     Matrix3 covariance{};
     for (std::size_t i = 0; i < rank; ++i) {
         for (std::size_t j = 0; j < rank; ++j) {
@@ -88,8 +89,8 @@ double p_of_moments(const Moments& a, const Moments& b, std::size_t count_a, std
         }
     }
     const double p = static_cast<double>(rank);
-    const double freedom =
-        (p + p * p) / (trace_terms(from_a, inverse, rank) / (n_a - 1) + trace_terms(from_b, inverse, rank) / (n_b - 1));
+    const double freedom = (p + p * p) / (trace_terms(from_a, inverse, rank) / (n_a - lost) +
+                                          trace_terms(from_b, inverse, rank) / (n_b - lost));
     const double rest = freedom - p + 1;
     return rest > 0 ? f_upper(t_squared * rest / (freedom * p), p, rest) : 1;
 }
@@ -163,14 +164,18 @@ ChannelRuns channel_runs(std::span<const Channels> a, std::span<const Channels> 
     if (runs.state != ChannelState::unequal && runs.rank > 0) {
         runs.state = ChannelState::tested;
     }
-    for (const std::span<const Channels> side : {a, b}) {
+    const auto project = [&](std::span<const Channels> side, const Channels& origin, std::vector<double>& target) {
         for (const Channels& run : side) {
-            const Channels centred = {run[0] - center[0], run[1] - center[1], run[2] - center[2]};
+            const Channels centred = {run[0] - origin[0], run[1] - origin[1], run[2] - origin[2]};
             for (const std::array<double, 3>& direction : directions) {
-                runs.values.push_back(dot(direction, centred));
+                target.push_back(dot(direction, centred));
             }
         }
-    }
+    };
+    project(a, center, runs.values);
+    project(b, center, runs.values);
+    project(a, mean_a, runs.deviations);
+    project(b, mean_b, runs.deviations);
     return runs;
 }
 
@@ -178,19 +183,27 @@ double channel_p(const ChannelRuns& runs) {
     if (runs.state != ChannelState::tested) {
         return runs.state == ChannelState::equal ? 1 : 0;
     }
-    std::vector<std::uint8_t> in_a(runs.count_a + runs.count_b, 0);
-    std::fill_n(in_a.begin(), runs.count_a, std::uint8_t{1});
-    return channel_p(runs, in_a);
+    const auto rank = static_cast<std::size_t>(runs.rank);
+    Moments sides[2];
+    for (std::size_t i = 0; i < runs.count_a + runs.count_b; ++i) {
+        sides[i < runs.count_a ? 0 : 1].add(&runs.values[i * rank], runs.rank);
+    }
+    return p_of_moments(sides[0], sides[1], runs.count_a, runs.count_b, rank, 1);
 }
 
-double channel_p(const ChannelRuns& runs, std::span<const std::uint8_t> in_a) {
-    assert(runs.state == ChannelState::tested && in_a.size() == runs.count_a + runs.count_b);
-    Moments sides[2];
+double resampled_channel_p(const ChannelRuns& runs, std::span<const double> sign) {
+    assert(runs.state == ChannelState::tested && sign.size() == runs.count_a + runs.count_b);
+    assert(runs.count_a >= 3 && runs.count_b >= 3);
     const auto rank = static_cast<std::size_t>(runs.rank);
-    for (std::size_t i = 0; i < in_a.size(); ++i) {
-        sides[in_a[i] != 0 ? 0 : 1].add(&runs.values[i * rank], runs.rank);
+    Moments sides[2];
+    for (std::size_t i = 0; i < sign.size(); ++i) {
+        double signed_deviation[3];
+        for (std::size_t k = 0; k < rank; ++k) {
+            signed_deviation[k] = sign[i] * runs.deviations[i * rank + k];
+        }
+        sides[i < runs.count_a ? 0 : 1].add(signed_deviation, runs.rank);
     }
-    return p_of_moments(sides[0], sides[1], runs.count_a, runs.count_b, rank);
+    return p_of_moments(sides[0], sides[1], runs.count_a, runs.count_b, rank, 2);
 }
 
 }  // namespace diptych

@@ -31,6 +31,7 @@ struct ChannelRuns {
     std::size_t count_a = 0;
     std::size_t count_b = 0;
     std::vector<double> values;
+    std::vector<double> deviations;  // of the values from their side's mean
 };
 
 /// At least two runs a side.
@@ -42,7 +43,10 @@ ChannelRuns channel_runs(std::span<const Channels> a, std::span<const Channels> 
 /// unequal.
 double channel_p(const ChannelRuns& runs);
 
-/// The same with run i on side a where in_a[i], as many as before; for permutation tests. State tested only.
-double channel_p(const ChannelRuns& runs, std::span<const std::uint8_t> in_a);
+/// The same test of a draw without difference in the means: every run's deviation from the mean of its side, times
+/// sign[i] (+1 or -1; a's first, as many of each kind on a side as can be). Each side keeps its own variance and tails.
+/// For normal runs, p is uniform to the last degree of freedom: the deviations have lost one, so the test reckons with
+/// one less. State tested, three runs a side or more.
+double resampled_channel_p(const ChannelRuns& runs, std::span<const double> sign);
 
 }  // namespace diptych

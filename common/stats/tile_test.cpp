@@ -101,30 +101,33 @@ void compare_images(std::span<const RunMeans> a, std::span<const RunMeans> b, do
     }
 }
 
-/// -2 ln p of every tested tile, for one way to divide the runs.
-double fisher_of(const std::vector<ChannelRuns>& tested, std::span<const std::uint8_t> in_a) {
-    double sum = 0;
-    for (const ChannelRuns& tile : tested) {
-        const double p = channel_p(tile, in_a);
-        sum += fisher_statistic(std::span(&p, 1));
+/// As many of +1 as of -1, but for one; in random order.
+void draw_signs(std::span<double> sign, std::mt19937_64& random) {
+    for (std::size_t i = 0; i < sign.size(); ++i) {
+        sign[i] = i % 2 == 0 ? 1 : -1;
     }
-    return sum;
+    std::shuffle(sign.begin(), sign.end(), random);
 }
 
-double permuted_fisher_p(const std::vector<ChannelRuns>& tested, double observed, const TileTestOptions& options) {
+double resampled_fisher_p(const std::vector<ChannelRuns>& tested, double observed, const TileTestOptions& options) {
     if (tested.empty()) {
         return 1;
     }
-    if (options.permutations < 2) {
+    const std::size_t count_a = tested.front().count_a;
+    const std::size_t count_b = tested.front().count_b;
+    if (options.resamplings < 2 || std::min(count_a, count_b) < 3) {
         return chi_square_upper(observed, 2 * static_cast<double>(tested.size()));
     }
-    std::vector<std::uint8_t> in_a(tested.front().count_a + tested.front().count_b, 0);
-    std::fill_n(in_a.begin(), tested.front().count_a, std::uint8_t{1});
+    std::vector<double> sign(count_a + count_b);
     std::mt19937_64 random(options.seed);
     std::vector<double> sums;
-    for (int i = 0; i < options.permutations; ++i) {
-        std::shuffle(in_a.begin(), in_a.end(), random);
-        sums.push_back(fisher_of(tested, in_a));
+    std::vector<double> p(tested.size());
+    for (int i = 0; i < options.resamplings; ++i) {
+        draw_signs(std::span(sign).first(count_a), random);
+        draw_signs(std::span(sign).last(count_b), random);
+        std::transform(tested.begin(), tested.end(), p.begin(),
+                       [&](const ChannelRuns& tile) { return resampled_channel_p(tile, sign); });
+        sums.push_back(fisher_statistic(p));
     }
     const SampleSummary null = summarize(sums);
     return scaled_chi_square_upper(observed, null.mean, null.variance);
@@ -167,7 +170,7 @@ void compare_tiles(std::span<const RunMeans> a, std::span<const RunMeans> b, con
         result.tiles.push_back(outcome);
     }
     result.tested = tested.size();
-    result.fisher_p = permuted_fisher_p(tested, fisher_statistic(p_values), options);
+    result.fisher_p = resampled_fisher_p(tested, fisher_statistic(p_values), options);
     result.local_p = sidak_adjusted(result.min_p, static_cast<double>(std::max<std::size_t>(result.tested, 1)));
     if (!lit_half_widths.empty()) {
         std::sort(lit_half_widths.begin(), lit_half_widths.end());

@@ -19,7 +19,7 @@ struct RunMeans {
 
 struct TileTestOptions {
     double confidence = 0.95;  // of the intervals
-    int permutations = 400;    // of the runs, for the null distribution of Fisher's sum; below 2, chi-square as it is
+    int resamplings = 400;     // for the null distribution of Fisher's sum; below 2, chi-square as it is
     std::uint32_t seed = 1;    // of those
 };
 
@@ -60,11 +60,11 @@ struct TileComparison {
 
 /// At least two runs a side, all with the same tiles; Error otherwise.
 ///
-/// Fisher's sum of the tiles' p-values has its mean and variance from the same sum over random exchanges of runs
-/// between the sides, and is judged as a scaled chi-square. Under equal distributions these exchanges change nothing
-/// (Fisher 1935), under equal means alone the studentised tiles keep them valid for many runs (Janssen 1997); so heavy
-/// tails, tiles that depend on one another and the discreteness of rare events, which all make p-values a little uneven
-/// and add up over a thousand tiles, are in the null distribution too.
+/// Fisher's sum of the tiles' p-values has its mean and variance from the same sum over draws without a difference:
+/// each run's deviation from its side's mean, all of its tiles together, with a random sign (the wild bootstrap: Wu
+/// 1986, Liu 1988). So heavy tails, tiles that depend on one another and the discreteness of rare events, which all
+/// make p-values a little uneven and add up over a thousand tiles, are in the null distribution too, and each side
+/// keeps its own variance. The sum is then judged as a scaled chi-square.
 TileComparison compare_runs(std::span<const RunMeans> a, std::span<const RunMeans> b,
                             const TileTestOptions& options = {});
 

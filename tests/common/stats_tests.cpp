@@ -1,10 +1,12 @@
 // Welch's test, its form in several channels, corrections for many tests, chi-square.
 #include <cmath>
+#include <random>
 
 #include "catch.h"
 #include "stats/channel_test.h"
 #include "stats/chi_square.h"
 #include "stats/distributions.h"
+#include "stats/kolmogorov_smirnov.h"
 #include "stats/multiple_testing.h"
 #include "stats/symmetric_matrix.h"
 #include "stats/welch.h"
@@ -107,13 +109,21 @@ TEST_CASE("What does not vary is equal or not, but for rounding") {
     CHECK(channel_runs(a, b).state == ChannelState::unequal);
 }
 
-TEST_CASE("Exchanged runs give the test of the exchanged sides") {
-    const ChannelRuns runs = channel_runs(colors_a, colors_b);
-    std::vector<Channels> a = colors_a;
-    std::vector<Channels> b = colors_b;
-    std::swap(a[2], b[3]);
-    std::vector<std::uint8_t> in_a = {1, 1, 0, 1, 1, 1, 0, 0, 0, 1, 0};
-    CHECK(channel_p(runs, in_a) == Approx(p_of(a, b)).epsilon(1e-9));
+TEST_CASE("Draws without a difference have uniform p-values, whatever the sides' noise") {
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal;
+    std::vector<double> p;
+    for (int i = 0; i < 4000; ++i) {
+        std::vector<Channels> a;
+        std::vector<Channels> b;
+        for (int run = 0; run < 8; ++run) {
+            a.push_back({9 + normal(random), normal(random), 2 * normal(random)});
+            b.push_back({5 * normal(random), normal(random), normal(random)});
+        }
+        std::vector<double> sign = {1, -1, 1, -1, 1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1, -1};
+        p.push_back(resampled_channel_p(channel_runs(a, b), sign));
+    }
+    CHECK(kolmogorov_smirnov_uniform(p).distance < 0.03);  // eight runs: the degrees of freedom are approximate
 }
 
 TEST_CASE("Eigenvectors and inverses of symmetric matrices undo them") {

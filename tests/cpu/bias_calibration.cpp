@@ -47,7 +47,7 @@ void check_calibration(const std::string& name, Integrator integrator, const Set
     for (int i = 0; i < setting.repeats; ++i) {
         const std::vector<RunMeans> a = render_side();
         const std::vector<RunMeans> b = render_side();
-        const TileComparison comparison = compare_runs(a, b, {.permutations = 100});
+        const TileComparison comparison = compare_runs(a, b, {.resamplings = 100});
         CHECK(comparison.unequal == 0);
         images.push_back(comparison.global_p);
         fishers.push_back(comparison.fisher_p);
