@@ -57,6 +57,11 @@ FN BsdfParameters bsdf_parameters(vec3 base_color, float metallic, float roughne
     return p;
 }
 
+/// Whether anything may reflect specularly: a scene that has no need of a microfacet model is diffuse throughout.
+FN bool bsdf_may_be_specular(uint features) {
+    return (features & (FEATURE_GGX | FEATURE_BLINN_PHONG)) != 0u;
+}
+
 FN bool bsdf_is_mirror(IN(BsdfParameters) p, uint features) {
     return (features & FEATURE_MIRRORS) != 0u && p.alpha < ALPHA_MIRROR;
 }
@@ -66,8 +71,11 @@ FN bool bsdf_is_blinn_phong(IN(BsdfParameters) p, uint features) {
 }
 
 /// Probability of the specular lobe, seen from wo; -1 where nothing reflects at all.
-FN float bsdf_specular_probability(IN(BsdfParameters) p, vec3 wo) {
+FN float bsdf_specular_probability(IN(BsdfParameters) p, vec3 wo, uint features) {
     bool has_diffuse = max_component(p.diffuse) > 0.0f;
+    if (!bsdf_may_be_specular(features)) {
+        return has_diffuse ? 0.0f : -1.0f;
+    }
     bool has_specular = max(max_component(p.f0), max_component(p.f90)) > 0.0f;
     float s = luminance(fresnel_schlick(p.f0, p.f90, wo.z));
     float d = luminance(p.diffuse) * (1.0f - clamp(s, 0.0f, 1.0f));
@@ -89,7 +97,7 @@ FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, float p_specular
     if (!(wo.z > COS_MIN && wi.z > COS_MIN) || p_specular < 0.0f) {
         return r;
     }
-    if (!(p_specular > 0.0f)) {  // nothing but diffuse: f0 and f90 are 0
+    if (!bsdf_may_be_specular(features) || !(p_specular > 0.0f)) {  // nothing but diffuse: f0 and f90 are 0
         r.value = p.diffuse * (INV_PI * MUTANT(DROP_COSINE, wi.z, 1.0f));
         r.pdf = pdf_cosine_hemisphere_solid_angle(wi.z);
         return r;
@@ -116,7 +124,7 @@ FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, float p_specular
 }
 
 FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint features) {
-    return bsdf_eval_pdf_local(p, wo, bsdf_specular_probability(p, wo), wi, features);
+    return bsdf_eval_pdf_local(p, wo, bsdf_specular_probability(p, wo, features), wi, features);
 }
 
 /// f |cos_i|, without delta lobes.
@@ -148,7 +156,7 @@ FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float p_specular,
     if (!(wo.z > COS_MIN) || p_specular < 0.0f) {
         return s;
     }
-    bool specular = u_lobe < p_specular;
+    bool specular = bsdf_may_be_specular(features) && u_lobe < p_specular;
     if (specular && bsdf_is_mirror(p, features)) {
         s.direction = vec3(-wo.x, -wo.y, wo.z);
         s.weight = fresnel_schlick(p.f0, p.f90, wo.z) / p_specular;
@@ -175,7 +183,7 @@ FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float p_specular,
     }
     BsdfValue r = bsdf_eval_pdf_local(p, wo, p_specular, s.direction, features);
     if (r.pdf > 0.0f) {
-        s.weight = p_specular > 0.0f ? r.value * (1.0f / r.pdf) : p.diffuse;
+        s.weight = bsdf_may_be_specular(features) && p_specular > 0.0f ? r.value * (1.0f / r.pdf) : p.diffuse;
         s.pdf = r.pdf;
         s.lobe = specular ? LOBE_SPECULAR : LOBE_DIFFUSE;
     }
@@ -183,7 +191,7 @@ FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float p_specular,
 }
 
 FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float u_lobe, vec2 u, uint features) {
-    return bsdf_sample_local(p, wo, bsdf_specular_probability(p, wo), u_lobe, u, features);
+    return bsdf_sample_local(p, wo, bsdf_specular_probability(p, wo, features), u_lobe, u, features);
 }
 
 SHARED_END

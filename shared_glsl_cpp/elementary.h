@@ -37,6 +37,15 @@ FN float max_component(vec3 v) {
     return max(v.x, max(v.y, v.z));
 }
 
+/// Sine and cosine of r radians, |r| <= pi/4, to 1 ulp.
+FN void sin_cos_octant(float r, OUT(float) s, OUT(float) c) {
+    PRECISE float z = r * r;
+    PRECISE float sine = r + r * z * (-0.166666552f + z * (0.00833215564f + z * -0.00019514632f));
+    PRECISE float cosine = 1.0f - (0.5f * z - z * z * (0.0416666456f + z * (-0.00138873095f + z * 2.44324146e-05f)));
+    s = sine;
+    c = cosine;
+}
+
 /// Sine and cosine of x radians, |x| <= SIN_COS_MAX; (0, 1) beyond it and for NaN. Error 1.6 ulp for
 /// |x| <= 7, and 3e-7 anywhere.
 /// pi/2 is taken off in three parts (Cody & Waite 1980; the split of Cephes).
@@ -45,9 +54,9 @@ FN void sin_cos(float x, OUT(float) s, OUT(float) c) {
     float quadrant = floor(angle * 0.636619772367581f + 0.5f);
     PRECISE float r =
         ((angle - quadrant * 1.5703125f) - quadrant * 4.837512969970703e-4f) - quadrant * 7.54978995489188e-8f;
-    PRECISE float z = r * r;
-    PRECISE float sine = r + r * z * (-0.166666552f + z * (0.00833215564f + z * -0.00019514632f));
-    PRECISE float cosine = 1.0f - (0.5f * z - z * z * (0.0416666456f + z * (-0.00138873095f + z * 2.44324146e-05f)));
+    float sine;
+    float cosine;
+    sin_cos_octant(r, sine, cosine);
     int turn = int(quadrant) & 3;
     bool swap = (turn & 1) != 0;
     float sine_part = swap ? cosine : sine;

@@ -15,7 +15,8 @@ struct Frame {
 /// Right-handed, for a unit normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited"). The frame turns where n.z
 /// passes the bound; a bound of 0 would lie in every wall that stands along z, where rounding, and so the backend, would choose.
 FN Frame frame_from_normal(vec3 n) {
-    float side = n.z >= -0.0625f ? 1.0f : -1.0f;
+    // The sign by its bit: walls come in both kinds, and a CPU would guess.
+    float side = uintBitsToFloat(0x3f800000u | (floatBitsToUint(n.z + 0.0625f) & 0x80000000u));
     PRECISE float a = -1.0f / (side + n.z);
     PRECISE float b = n.x * n.y * a;
     PRECISE vec3 tangent = vec3(1.0f + side * n.x * n.x * a, side * b, -side * n.x);

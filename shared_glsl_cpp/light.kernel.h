@@ -107,14 +107,11 @@ FN LightSample sample_environment(IN(Sampler) random, uint dimension, vec2 u) {
 
 // Emissive triangles
 
-FN vec3 emitter_front(IN(EmissiveTriangle) light) {
-    vec3 n = normalize_or(cross(light.edge_1, light.edge_2), vec3(0.0f, 0.0f, 0.0f));
-    return (light.flags & EMITTER_MIRRORED) != 0u ? -n : n;
-}
-
 /// Density per solid angle, pick included, with which sample_emitter finds `point` of the triangle from `reference`.
 FN float pdf_emitter(IN(EmissiveTriangle) light, vec3 reference, vec3 point) {
-    return light.pmf * pdf_triangle_solid_angle(reference, light.vertex_0, light.edge_1, light.edge_2, point);
+    PRECISE vec3 to_vertex_0 = light.vertex_0 - reference;
+    TriangleView view = triangle_view(to_vertex_0, light.edge_1, light.edge_2, light.front, light.double_area);
+    return light.pmf * pdf_triangle_view(view, point - reference);
 }
 
 /// Emitted radiance at barycentrics of a light, times its coverage where it is not opaque: a ray that finds it there would have
@@ -138,20 +135,23 @@ FN vec3 emitter_radiance(IN(EmissiveTriangle) light, vec2 barycentrics) {
 FN LightSample sample_emitter(uint id, vec3 reference, vec2 u) {
     LightSample s = no_light();
     LOCAL(EmissiveTriangle) light = load_emissive_triangles(id);
-    TriangleSample t = sample_triangle_solid_angle(reference, light.vertex_0, light.edge_1, light.edge_2, u);
-    vec3 point = light.vertex_0 + t.barycentrics.x * light.edge_1 + t.barycentrics.y * light.edge_2;
-    vec3 to_light = point - reference;
-    vec3 front = emitter_front(light);
-    float facing = -dot(front, to_light);
+    PRECISE vec3 to_vertex_0 = light.vertex_0 - reference;
+    bool behind = dot(to_vertex_0, light.front) >= 0.0f;
     bool one_sided = MUTANT(ONE_SIDED_AS_TWO_SIDED, (light.flags & EMITTER_TWO_SIDED) == 0u, false);
-    if (!(t.pdf > 0.0f) || (facing <= 0.0f && one_sided)) {
+    if (behind && one_sided) {
         return s;
     }
-    s.direction = normalize_or(to_light, front);
+    TriangleView view = triangle_view(to_vertex_0, light.edge_1, light.edge_2, light.front, light.double_area);
+    TriangleSample t = sample_triangle_view(view, to_vertex_0, light.edge_1, light.edge_2, u);
+    if (!(t.pdf > 0.0f)) {
+        return s;
+    }
+    vec3 point = light.vertex_0 + t.barycentrics.x * light.edge_1 + t.barycentrics.y * light.edge_2;
+    s.direction = normalize_or(point - reference, light.front);
     s.radiance = emitter_radiance(light, t.barycentrics);
     s.pdf = MUTANT(NO_LIGHT_PICK_PDF, light.pmf, 1.0f) * t.pdf;
     vec3 end = MUTANT(SHADOW_RAY_TO_WRONG_LIGHT, point, load_emissive_triangles(0u).vertex_0);
-    s.end = offset_ray(end, facing < 0.0f ? -front : front);
+    s.end = offset_ray(end, behind ? -light.front : light.front);
     return s;
 }
 

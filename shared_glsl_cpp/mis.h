@@ -15,11 +15,9 @@ FN float mis_weight(uint heuristic, float pdf_a, float pdf_b) {
     if (!(pdf_b > 0.0f)) {
         return 1.0f;
     }
-    float a = min(pdf_a, 8.0e37f);
-    float b = min(pdf_b, 8.0e37f);
-    float ratio = min(a, b) / max(a, b);
-    float part = heuristic == MIS_POWER ? ratio * ratio : ratio;
-    return a >= b ? 1.0f / (1.0f + part) : part / (1.0f + part);
+    float ratio = min(pdf_b, 8.0e37f) / min(pdf_a, 8.0e37f);
+    float bounded = min(ratio, heuristic == MIS_POWER ? 1.0e18f : 1.0e37f);  // so that nothing overflows
+    return 1.0f / (1.0f + (heuristic == MIS_POWER ? bounded * bounded : bounded));
 }
 
 SHARED_END

@@ -9,10 +9,13 @@ SHARED_BEGIN
 /// One coordinate: a step of up to 256 ulps along the normal, or a fixed one close to zero, where ulps are too small.
 FN float offset_coordinate(float position, float normal) {
     int step_ulps = int(256.0f * normal);
-    int stepped = floatBitsToInt(position) + (position < 0.0f ? -step_ulps : step_ulps);
+    int bits = floatBitsToInt(position);
+    int sign = bits >> 31;  // -1 below zero, else 0
+    int stepped = bits + ((step_ulps ^ sign) - sign);
     PRECISE float near_zero = position + normal * (1.0f / 65536.0f);
-    // Chosen as integers, which CPUs do without a branch.
-    return intBitsToFloat(abs(position) < 1.0f / 32.0f ? floatBitsToInt(near_zero) : stepped);
+    // Chosen by a mask: a CPU would guess.
+    int stays_near = ((bits & 0x7fffffff) - 0x3d000000) >> 31;  // -1 where |position| < 1/32, else 0
+    return intBitsToFloat((floatBitsToInt(near_zero) & stays_near) | (stepped & ~stays_near));
 }
 
 /// The finite point moved off the surface, to the side that the unit normal points to (Waechter & Binder 2019, Ray

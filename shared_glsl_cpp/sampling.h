@@ -6,36 +6,31 @@
 
 SHARED_BEGIN
 
-/// Polar form of the concentric map (Shirley & Chiu 1997): radius with a sign, and angle.
-FN void concentric_polar(vec2 u, OUT(float) radius, OUT(float) angle) {
+/// Uniform on the unit disk by the concentric map (Shirley & Chiu 1997), which keeps strata together. `radius` has a sign.
+FN vec2 sample_disk_concentric(vec2 u, OUT(float) radius) {
     float a = 2.0f * u.x - 1.0f;
     float b = 2.0f * u.y - 1.0f;
     bool wide = abs(a) > abs(b);
     radius = wide ? a : b;
     float ratio = radius == 0.0f ? 0.0f : (wide ? b : a) / radius;
-    angle = wide ? QUARTER_PI * ratio : HALF_PI - QUARTER_PI * ratio;
-}
-
-/// Uniform on the unit disk; keeps strata together.
-FN vec2 sample_disk_concentric(vec2 u) {
-    float radius;
-    float angle;
-    concentric_polar(u, radius, angle);
     float s;
     float c;
-    sin_cos(angle, s, c);
-    return vec2(radius * c, radius * s);
+    sin_cos_octant(QUARTER_PI * ratio, s, c);  // from the nearer axis
+    float along = radius * c;
+    float across = radius * s;
+    return vec2(wide ? along : across, wide ? across : along);
+}
+
+FN vec2 sample_disk_concentric(vec2 u) {
+    float radius;
+    return sample_disk_concentric(u, radius);
 }
 
 /// Malley's method: the disk, lifted.
 FN vec3 sample_cosine_hemisphere(vec2 u) {
     float radius;
-    float angle;
-    concentric_polar(u, radius, angle);
-    float s;
-    float c;
-    sin_cos(angle, s, c);
-    return vec3(radius * c, radius * s, safe_sqrt((1.0f - radius) * (1.0f + radius)));
+    vec2 disk = sample_disk_concentric(u, radius);
+    return vec3(disk.x, disk.y, safe_sqrt((1.0f - radius) * (1.0f + radius)));
 }
 
 FN float pdf_cosine_hemisphere_solid_angle(float cos_theta) {

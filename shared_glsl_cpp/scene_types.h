@@ -80,8 +80,7 @@ struct TextureSlot {
 ASSERT_SIZE(TextureSlot, 40);
 
 CONST uint EMITTER_TWO_SIDED = 1u;
-CONST uint EMITTER_MIRRORED = 2u;  // the front normal is -(edge_1 x edge_2)
-CONST uint EMITTER_VARIES = 4u;    // textured or not opaque: its radiance depends on the place, and the material knows it
+CONST uint EMITTER_VARIES = 2u;    // textured or not opaque: its radiance depends on the place, and the material knows it
 
 /// A light that a ray can hit: x = vertex_0 + b_1 edge_1 + b_2 edge_2, in world space. Lights 0 .. emissive_triangle_count-1.
 struct EmissiveTriangle {
@@ -93,8 +92,10 @@ struct EmissiveTriangle {
     uint geometry;  // with primitive: where the texture coordinates are, for a textured emission
     vec3 radiance;  // the material's factor, before its texture
     uint primitive; // index within the geometry
+    vec3 front;     // unit normal, to the side that emits
+    float double_area;
 };
-ASSERT_SIZE(EmissiveTriangle, 64);
+ASSERT_SIZE(EmissiveTriangle, 80);
 
 CONST uint PUNCTUAL_POINT = 0u;
 CONST uint PUNCTUAL_SPOT = 1u;

@@ -35,7 +35,7 @@ FN SeenBsdf see_bsdf(IN(SurfaceBsdf) s, vec3 wo, uint features) {
     seen.normal = bent_normal(s.shading_normal, s.geometric_normal, wo);
     seen.frame = frame_from_normal(seen.normal);
     seen.wo_local = to_local(seen.frame, wo);
-    seen.p_specular = bsdf_specular_probability(s.parameters, seen.wo_local);
+    seen.p_specular = bsdf_specular_probability(s.parameters, seen.wo_local, features);
     seen.mapped = false;
     if ((features & FEATURE_NORMAL_MAPS) != 0u && s.mapped != 0u) {
         MappedNormal m = make_mapped_normal(s.shading_normal, seen.normal, s.mapped_normal);

@@ -14,7 +14,10 @@ std::array<const TextureSlot*, 6> slots_of(const Material& m) {
             &m.emission_texture,   &m.specular_texture,           &m.specular_color_texture};
 }
 
-std::uint32_t material_features(const Material& m) {
+/// Whether a microfacet lobe has any weight; textures only scale these factors.
+bool reflects_specularly(const Material& m) { return !m.unlit && (m.specular > 0 || m.metallic > 0); }
+
+std::uint32_t material_features(const Material& m, BrdfModel model) {
     std::uint32_t bits = 0;
     for (const TextureSlot* slot : slots_of(m)) {
         if (slot->texture != none) {
@@ -33,7 +36,10 @@ std::uint32_t material_features(const Material& m) {
     // A texture can bring any roughness down to that of a mirror.
     const bool can_be_mirror =
         m.metallic_roughness_texture.texture != none || m.roughness * m.roughness < shared::ALPHA_MIRROR;
-    bits |= !m.unlit && can_be_mirror ? shared::FEATURE_MIRRORS : 0U;
+    if (reflects_specularly(m)) {
+        bits |= model == BrdfModel::ggx ? shared::FEATURE_GGX : shared::FEATURE_BLINN_PHONG;
+        bits |= can_be_mirror ? shared::FEATURE_MIRRORS : 0U;
+    }
     return bits;
 }
 
@@ -68,7 +74,7 @@ std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings
         for (const Primitive& primitive : scene.meshes[i].primitives) {
             if (used[i] && !primitive.triangles.empty()) {
                 const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-                bits |= material_features(material);
+                bits |= material_features(material, settings.brdf);
                 bits |= primitive.colors.empty() ? 0U : shared::FEATURE_VERTEX_COLORS;
                 // The radiance of an unlit material also varies with the vertex colours.
                 const bool colored_light = emits(material) && material.unlit && !primitive.colors.empty();
@@ -76,7 +82,6 @@ std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings
             }
         }
     }
-    bits |= settings.brdf == BrdfModel::ggx ? shared::FEATURE_GGX : shared::FEATURE_BLINN_PHONG;
     if (!scene.cameras.empty()) {
         const Camera& camera = scene.cameras[static_cast<std::size_t>(settings.camera)];
         bits |= camera.orthographic ? shared::FEATURE_ORTHOGRAPHIC : 0U;

@@ -79,9 +79,7 @@ void place_geometry(PackedScene& packed, std::size_t instance_index, std::uint32
         light.vertex_0 = a;
         light.edge_1 = edge_1;
         light.edge_2 = edge_2;
-        light.flags = (two_sided ? shared::EMITTER_TWO_SIDED : 0U) |
-                      (instance.mirrored != 0 ? shared::EMITTER_MIRRORED : 0U) |
-                      (varies ? shared::EMITTER_VARIES : 0U);
+        light.flags = (two_sided ? shared::EMITTER_TWO_SIDED : 0U) | (varies ? shared::EMITTER_VARIES : 0U);
         light.radiance = unlit ? glm::vec3(material.base_color) : material.emission;
         double& mean = packed.emitter_means[first + t];
         if (materials_changed) {
@@ -89,10 +87,15 @@ void place_geometry(PackedScene& packed, std::size_t instance_index, std::uint32
         }
         // In fp32, as the samplers will see it: what has no area there is no light.
         const bool has_area = shown && glm::length(glm::cross(light.edge_1, light.edge_2)) > 0;
-        const double area = 0.5 * glm::length(glm::cross(edge_1, edge_2));
+        // Of the rounded edges, which span the triangle that is sampled.
+        const glm::dvec3 normal = glm::cross(glm::dvec3(light.edge_1), glm::dvec3(light.edge_2));
+        const double double_area = glm::length(normal);
+        light.front = double_area > 0 ? normal * ((instance.mirrored != 0 ? -1 : 1) / double_area) : normal;
+        light.double_area = static_cast<float>(double_area);
         // A texture's samples may all miss what is bright: the material's own factor keeps such a light alive.
         const double floor = varies ? 1e-3 * luminance(glm::dvec3(light.radiance)) : 0;
-        packed.light_powers[first + t] = has_area ? std::max(mean, floor) * area * pi * (two_sided ? 2 : 1) : 0.0;
+        const double power = std::max(mean, floor) * 0.5 * double_area * pi * (two_sided ? 2 : 1);
+        packed.light_powers[first + t] = has_area ? power : 0.0;
     }
 }
 

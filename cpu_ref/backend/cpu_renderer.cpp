@@ -18,10 +18,11 @@ constexpr int tile_size = 16;
 // Samples of a pixel taken in one go: long enough to keep its film in registers, short enough to hear a cancel.
 constexpr std::uint32_t samples_a_slice = 16;
 
-// Scenes that need no more than these get a kernel of their own, compiled without the rest.
-constexpr std::uint32_t plain_features = shared::FEATURE_EMISSIVE | shared::FEATURE_CONSTANT_ENVIRONMENT |
-                                         shared::FEATURE_GGX | shared::FEATURE_STANDARD_ERROR |
-                                         shared::FEATURE_FIRST_HIT_LAYERS | shared::FEATURE_LIGHT_SAMPLING;
+// Scenes that need no more than these get kernels of their own, compiled without the rest.
+constexpr std::uint32_t diffuse_features = shared::FEATURE_EMISSIVE | shared::FEATURE_CONSTANT_ENVIRONMENT |
+                                           shared::FEATURE_STANDARD_ERROR | shared::FEATURE_FIRST_HIT_LAYERS |
+                                           shared::FEATURE_LIGHT_SAMPLING;
+constexpr std::uint32_t plain_features = diffuse_features | shared::FEATURE_GGX;
 
 using Clock = std::chrono::steady_clock;
 
@@ -175,13 +176,16 @@ private:
     }
 
     void accumulate(Film& film, std::uint32_t first, std::uint32_t count, const std::atomic<bool>* cancel) const {
+        const bool diffuse = (packed_->features & ~diffuse_features) == 0;
         const bool plain = (packed_->features & ~plain_features) == 0;
         for_tiles([&](int x, int y) {
             if (cancel != nullptr && *cancel) {
                 return;
             }
-            if (plain) {
-                accumulate_plain_tile(film, x, y, first, count);
+            if (diffuse) {
+                accumulate_flat_tile<diffuse_features>(film, x, y, first, count);
+            } else if (plain) {
+                accumulate_flat_tile<plain_features>(film, x, y, first, count);
             } else {
                 shared::CpuKernel<PlainTracer, ~0U> kernel{*packed_, constants_, {*scene_}};
                 accumulate_tile(kernel, film, x, y, first, count);
@@ -190,9 +194,10 @@ private:
     }
 
     /// One function with everything inlined, so that what a path carries along stays in registers.
-    [[gnu::flatten]] void accumulate_plain_tile(Film& film, int tile_x, int tile_y, std::uint32_t first,
-                                                std::uint32_t count) const {
-        shared::CpuKernel<PlainTracer, plain_features> kernel{*packed_, constants_, {*scene_}};
+    template <std::uint32_t FEATURES>
+    [[gnu::flatten, gnu::noinline]] void accumulate_flat_tile(Film& film, int tile_x, int tile_y, std::uint32_t first,
+                                               std::uint32_t count) const {
+        shared::CpuKernel<PlainTracer, FEATURES> kernel{*packed_, constants_, {*scene_}};
         accumulate_tile(kernel, film, tile_x, tile_y, first, count);
     }
 

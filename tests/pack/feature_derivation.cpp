@@ -72,19 +72,19 @@ const std::vector<Case>& cases() {
          FEATURE_EMISSIVE | FEATURE_EMISSIVE_TEXTURES | FEATURE_ALPHA},
         {"emission texture without emission",
          [](Scene& s, RenderSettings&) { material(s).emission_texture.texture = add_texture(s); }, FEATURE_TEXTURES},
-        {"unlit", [](Scene& s, RenderSettings&) { material(s).unlit = true; }, FEATURE_EMISSIVE},
+        {"unlit", [](Scene& s, RenderSettings&) { material(s).unlit = true; }, FEATURE_EMISSIVE, FEATURE_GGX},
         {"unlit with vertex colours",
          [](Scene& s, RenderSettings&) {
              material(s).unlit = true;
              square(s).colors.assign(4, glm::vec4(1));
          },
-         FEATURE_EMISSIVE | FEATURE_EMISSIVE_TEXTURES | FEATURE_VERTEX_COLORS},
+         FEATURE_EMISSIVE | FEATURE_EMISSIVE_TEXTURES | FEATURE_VERTEX_COLORS, FEATURE_GGX},
         {"black unlit",
          [](Scene& s, RenderSettings&) {
              material(s).unlit = true;
              material(s).base_color = {0, 0, 0, 1};
          },
-         0},
+         0, FEATURE_GGX},
         {"lamp", [](Scene& s, RenderSettings&) { s.lights.emplace_back(); }, FEATURE_PUNCTUAL | FEATURE_LIGHT_SAMPLING},
         {"sky", [](Scene& s, RenderSettings&) { s.environment.kind = Environment::Kind::constant; },
          FEATURE_CONSTANT_ENVIRONMENT},
@@ -105,6 +105,25 @@ const std::vector<Case>& cases() {
         {"blinn-phong", [](Scene&, RenderSettings& r) { r.brdf = BrdfModel::blinn_phong; }, FEATURE_BLINN_PHONG,
          FEATURE_GGX},
         {"mirror", [](Scene& s, RenderSettings&) { material(s).roughness = 0; }, FEATURE_MIRRORS},
+        {"diffuse throughout",
+         [](Scene& s, RenderSettings&) {
+             material(s).metallic = 0;
+             material(s).specular = 0;
+             material(s).roughness = 0;
+         },
+         0, FEATURE_GGX},
+        {"specular alone",
+         [](Scene& s, RenderSettings&) {
+             material(s).metallic = 0;
+             material(s).specular = 0.1F;
+         },
+         0},
+        {"metal alone",
+         [](Scene& s, RenderSettings&) {
+             material(s).metallic = 0.1F;
+             material(s).specular = 0;
+         },
+         0},
         {"all but a mirror", [](Scene& s, RenderSettings&) { material(s).roughness = 0.011F; }, 0},
         {"lens", [](Scene& s, RenderSettings&) { s.cameras[0].lens_radius = 0.1; }, FEATURE_THIN_LENS},
         {"orthographic", [](Scene& s, RenderSettings&) { s.cameras[0].orthographic = true; }, FEATURE_ORTHOGRAPHIC},
@@ -163,11 +182,11 @@ TEST_CASE("Features of what no instance shows stay off") {
     material(scene).emission = {1, 1, 1};
     material(scene).alpha_mode = AlphaMode::blend;
     scene.instances.clear();
-    CHECK(needed_features(scene, brdf_settings()) == shared::FEATURE_GGX);
+    CHECK(needed_features(scene, brdf_settings()) == 0);
     scene = least_scene();
     square(scene).triangles.clear();
     material(scene).alpha_mode = AlphaMode::blend;
-    CHECK(needed_features(scene, brdf_settings()) == shared::FEATURE_GGX);
+    CHECK(needed_features(scene, brdf_settings()) == 0);
 }
 
 TEST_CASE("What samples no light packs no light") {

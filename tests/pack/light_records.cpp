@@ -86,9 +86,9 @@ TEST_CASE("Emissive triangles stand where the world has them, and know their sid
                     glm::dvec3(primitive.positions[triangle.y]) - glm::dvec3(primitive.positions[triangle.x]),
                     glm::dvec3(primitive.positions[triangle.z]) - glm::dvec3(primitive.positions[triangle.x]));
                 const glm::dvec3 front = glm::transpose(glm::inverse(m)) * local;
-                glm::dvec3 packed_front = glm::cross(glm::dvec3(light.edge_1), glm::dvec3(light.edge_2));
-                packed_front *= (light.flags & shared::EMITTER_MIRRORED) != 0 ? -1.0 : 1.0;
-                CHECK(glm::dot(glm::normalize(front), glm::normalize(packed_front)) > 0.99999);
+                CHECK(glm::length(glm::normalize(front) - glm::dvec3(light.front)) < 1e-5);
+                const double double_area = glm::length(glm::cross(world(triangle.y) - a, world(triangle.z) - a));
+                CHECK(static_cast<double>(light.double_area) == Approx(double_area).epsilon(1e-5));
             }
         }
     }

@@ -92,7 +92,8 @@ FN void probe_bsdf_parameters(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_bits(o, bsdf_is_mirror(b, features) ? 1u : 0u);
     put_bits(o, bsdf_is_blinn_phong(b, features) ? 1u : 0u);
     put_bits(o, bsdf_is_purely_delta(b, features) ? 1u : 0u);
-    put(o, bsdf_specular_probability(b, p.wo), 1.0f);
+    put_bits(o, bsdf_may_be_specular(features) ? 1u : 0u);
+    put(o, bsdf_specular_probability(b, p.wo, features), 1.0f);
     BsdfSample none = bsdf_null_sample();
     put_same3(o, none.direction);
     put_same3(o, none.weight);
@@ -148,7 +149,7 @@ FN void probe_bsdf_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     BsdfParameters b = probe_parameters(p);
     uint features = probe_features(p);
     vec2 u = vec2(p.u.x, p.u.y);
-    bool specular = p.u.z < bsdf_specular_probability(b, p.wo);
+    bool specular = p.u.z < bsdf_specular_probability(b, p.wo, features);
     BsdfSample s = bsdf_sample_local(b, p.wo, p.u.z, u, features);
     put_path(o, specular);
     put_path(o, s.pdf > 0.0f);

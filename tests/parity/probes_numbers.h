@@ -79,6 +79,9 @@ FN void probe_small_helpers(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
 FN void probe_sin_cos(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     float s;
     float c;
+    sin_cos_octant(QUARTER_PI * p.u.x, s, c);
+    put(o, s, 1.0f);
+    put(o, c, 1.0f);
     sin_cos(p.angle, s, c);
     put_relative(o, s);
     put_relative(o, c);

@@ -9,11 +9,8 @@ SHARED_BEGIN
 FN void probe_disk(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     vec2 u = vec2(p.u.x, p.u.y);
     float radius;
-    float angle;
-    concentric_polar(u, radius, angle);
+    vec2 disk = sample_disk_concentric(u, radius);
     put_bits(o, floatBitsToUint(radius));
-    put_relative(o, angle);
-    vec2 disk = sample_disk_concentric(u);
     put(o, disk.x, abs(radius));
     put(o, disk.y, abs(radius));
 }
@@ -50,78 +47,100 @@ FN void probe_triangle_by_area(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put3(o, triangle_cross(p.edge_1, p.edge_2), l1 * l2 * l3 / max(longest, 1.0e-30f));
 }
 
-/// How much the view's volume and its angle move where coordinates do by an ulp of the distance.
-FN float probe_volume_scale(IN(TriangleView) view) {
-    vec3 e3 = view.e2 - view.e1;
-    float l1 = length(view.e1);
-    float l2 = length(view.e2);
-    float l3 = length(e3);
-    float edges = l1 * l2 * l3 / max(max(l1, max(l2, l3)), 1.0e-30f);
-    return edges * view.lengths.x;
+/// The triangle, seen from the origin, as solid_angle_triangle scales it.
+struct ProbeTriangle {
+    vec3 vertex;
+    vec3 edge_1;
+    vec3 edge_2;
+    TriangleView view;
+};
+
+FN ProbeTriangle probe_triangle(IN(ProbeInput) p) {
+    float scale = triangle_scale(p.vertex, p.edge_1, p.edge_2);
+    ProbeTriangle t;
+    t.vertex = p.vertex * scale;
+    t.edge_1 = p.edge_1 * scale;
+    t.edge_2 = p.edge_2 * scale;
+    t.view = triangle_view_of_edges(t.vertex, t.edge_1, t.edge_2);
+    return t;
 }
 
-FN float probe_angle_scale(IN(TriangleView) view) {
-    float volume = abs(view.volume);
-    float volume_scale = probe_volume_scale(view);
-    float denominator_scale = view.lengths.x * view.lengths.y * view.lengths.z;
-    float square = volume * volume + view.denominator * view.denominator;
-    float slope = abs(view.denominator) * volume_scale + volume * denominator_scale;
-    return view_solid_angle(view) + slope / max(square, 1.0e-35f);
+/// How much the view's volume and its angle move where coordinates do by an ulp of the distance.
+FN float probe_volume_scale(IN(ProbeTriangle) t) {
+    vec3 e3 = t.edge_2 - t.edge_1;
+    float l1 = length(t.edge_1);
+    float l2 = length(t.edge_2);
+    float l3 = length(e3);
+    float edges = l1 * l2 * l3 / max(max(l1, max(l2, l3)), 1.0e-30f);
+    return edges * t.view.inverse_lengths.y * t.view.inverse_lengths.z;
+}
+
+FN float probe_angle_scale(IN(ProbeTriangle) t) {
+    float volume = t.view.volume;
+    float square = volume * volume + t.view.denominator * t.view.denominator;
+    float slope = abs(t.view.denominator) * probe_volume_scale(t) + volume;
+    return view_solid_angle(t.view) + slope / max(square, 1.0e-35f);
+}
+
+/// How much of its digits a point of the triangle loses where its parts cancel.
+FN float probe_cancelled(IN(ProbeTriangle) t, vec2 b) {
+    vec3 point = t.vertex + b.x * t.edge_1 + b.y * t.edge_2;
+    return (length(t.vertex) + length(t.edge_1) + length(t.edge_2)) / max(length(point), 1.0e-20f);
 }
 
 FN void probe_triangle_view(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     vec3 reference = vec3(0.0f, 0.0f, 0.0f);
-    TriangleView view = triangle_view(reference, p.vertex, p.edge_1, p.edge_2);
-    put_bits(o, floatBitsToUint(view.scale));
-    put_same3(o, view.a);
-    put_same3(o, view.b);
-    put_same3(o, view.c);
-    put(o, view.volume, probe_volume_scale(view));
-    float denominator_scale = view.lengths.x * view.lengths.y * view.lengths.z;
-    put(o, view.denominator, denominator_scale);
-    put(o, view.edge_ab, denominator_scale);
-    put_relative(o, view.lengths.x);
-    put_path(o, samples_spherically(view));
-    put(o, view_solid_angle(view), probe_angle_scale(view));
-    put(o, solid_angle_triangle(reference, p.vertex, p.edge_1, p.edge_2), probe_angle_scale(view));
+    ProbeTriangle t = probe_triangle(p);
+    put_bits(o, floatBitsToUint(triangle_scale(p.vertex, p.edge_1, p.edge_2)));
+    put3(o, t.view.a, 1.0f);
+    put3(o, t.view.b, 1.0f);
+    put3(o, t.view.c, 1.0f);
+    put(o, t.view.volume, probe_volume_scale(t));
+    put(o, t.view.denominator, 1.0f);
+    put(o, t.view.edge_ab, 1.0f);
+    put_relative(o, t.view.inverse_lengths.x);
+    put_path(o, samples_spherically(t.view));
+    put(o, view_solid_angle(t.view), probe_angle_scale(t));
+    put(o, solid_angle_triangle(reference, p.vertex, p.edge_1, p.edge_2), probe_angle_scale(t));
+    TriangleView of_normal = triangle_view(t.vertex, t.edge_1, t.edge_2, p.axis, 1.0f);
+    put(o, of_normal.height, 1.0f);
 }
 
 FN void probe_triangle_pdf(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     vec3 reference = vec3(0.0f, 0.0f, 0.0f);
-    TriangleView view = triangle_view(reference, p.vertex, p.edge_1, p.edge_2);
-    bool spherical = samples_spherically(view);
+    ProbeTriangle t = probe_triangle(p);
+    bool spherical = samples_spherically(t.view);
     put_path(o, spherical);
     vec2 b = sample_triangle(vec2(p.u.x, p.u.y));
     vec3 point = p.vertex + b.x * p.edge_1 + b.y * p.edge_2;
-    float cancelled = (length(view.a) + length(view.e1) + length(view.e2)) / max(length(point) * view.scale, 1.0e-20f);
-    float by_area = cancelled + probe_volume_scale(view) / max(abs(view.volume), 1.0e-30f);
-    float by_angle = probe_angle_scale(view) / max(view_solid_angle(view), 1.0e-30f);
+    float by_area = probe_cancelled(t, b) + probe_volume_scale(t) / max(t.view.volume, 1.0e-30f);
+    float by_angle = probe_angle_scale(t) / max(view_solid_angle(t.view), 1.0e-30f);
     float pdf = pdf_triangle_solid_angle(reference, p.vertex, p.edge_1, p.edge_2, point);
     put(o, pdf, pdf * (spherical ? by_angle : by_area));
-    float area_pdf = pdf_triangle_area_solid_angle(view, point * view.scale);
+    vec3 scaled = t.vertex + b.x * t.edge_1 + b.y * t.edge_2;
+    float pdf_of_view = pdf_triangle_view(t.view, scaled);
+    put(o, pdf_of_view, pdf_of_view * (spherical ? by_angle : by_area));
+    float area_pdf = pdf_triangle_area_solid_angle(t.view, scaled);
     put(o, area_pdf, area_pdf * by_area);
     TriangleSample s = sample_triangle_solid_angle(reference, p.vertex, p.edge_1, p.edge_2, vec2(p.u.x, p.u.y));
-    vec3 sampled = p.vertex + s.barycentrics.x * p.edge_1 + s.barycentrics.y * p.edge_2;
-    float lost = (length(view.a) + length(view.e1) + length(view.e2)) / max(length(sampled) * view.scale, 1.0e-20f);
-    put(o, s.pdf, s.pdf * (spherical ? by_angle : by_area + lost));
+    put(o, s.pdf, s.pdf * (spherical ? by_angle : by_area + probe_cancelled(t, s.barycentrics)));
 }
 
 /// By solid angle: the direction, as barycentrics of far triangles move more than what they stand for.
 FN void probe_triangle_by_angle(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
-    vec3 reference = vec3(0.0f, 0.0f, 0.0f);
-    TriangleView view = triangle_view(reference, p.vertex, p.edge_1, p.edge_2);
-    bool spherical = samples_spherically(view);
+    ProbeTriangle t = probe_triangle(p);
+    bool spherical = samples_spherically(t.view);
     put_path(o, spherical);
     if (!spherical) {
         return;
     }
-    float angle = view_solid_angle(view);
+    float angle = view_solid_angle(t.view);
     vec2 u = vec2(p.u.x, p.u.y);
-    vec2 b = sample_spherical_triangle(view, angle, u);
-    TriangleSample s = sample_triangle_solid_angle(reference, p.vertex, p.edge_1, p.edge_2, u);
-    float scale = 1.0f + probe_angle_scale(view) / angle;
-    put3(o, normalize(view.a + b.x * view.e1 + b.y * view.e2), scale);
-    put3(o, normalize(view.a + s.barycentrics.x * view.e1 + s.barycentrics.y * view.e2), scale);
+    vec2 b = sample_spherical_triangle(t.view, angle, u);
+    TriangleSample s = sample_triangle_view(t.view, t.vertex, t.edge_1, t.edge_2, u);
+    float scale = 1.0f + probe_angle_scale(t) / angle;
+    put3(o, normalize(t.vertex + b.x * t.edge_1 + b.y * t.edge_2), scale);
+    put3(o, normalize(t.vertex + s.barycentrics.x * t.edge_1 + s.barycentrics.y * t.edge_2), scale);
 }
 
 FN void probe_mis(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
@@ -192,7 +211,7 @@ SHARED_END
     X(hemispheres, 8, 0, "sqrt or a division, then sin_cos")                                                           \
     X(frame, 16, 0, "one division, twice used; then sums of three products")                                           \
     X(triangle_by_area, 4, 0, "precise cross product; the two edges may be chosen otherwise at a tie")                 \
-    X(triangle_view, 32, 100, "three lengths by sqrt, in products of three")                                           \
+    X(triangle_view, 32, 100, "three inverse lengths, in products of two")                                             \
     X(triangle_pdf, 48, 100, "the view's, r^3 and two divisions")                                                      \
     X(triangle_by_angle, 256, 100, "the view's, then some twenty operations with five divisions")                      \
     X(mis, 8, 0, "two divisions")                                                                                      \

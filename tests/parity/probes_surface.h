@@ -214,7 +214,7 @@ FN void probe_mapped_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     }
     Frame frame = frame_from_normal(m.facet);
     vec3 start_local = to_local(frame, start);
-    bool specular = p.u.z < bsdf_specular_probability(b, start_local);
+    bool specular = p.u.z < bsdf_specular_probability(b, start_local, features);
     put_path(o, specular);
     BsdfSample first = bsdf_sample_in_frame(b, frame, start, p.u.z, u, features);
     put_path(o, p.u.w < p_facet * mapped_masking(m, first.direction));
