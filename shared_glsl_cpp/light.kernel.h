@@ -132,17 +132,21 @@ FN vec3 emitter_radiance(IN(EmissiveTriangle) light, vec2 barycentrics) {
     return radiance;
 }
 
-FN LightSample sample_emitter(uint id, vec3 reference, vec2 u) {
-    LightSample s = no_light();
-    LOCAL(EmissiveTriangle) light = load_emissive_triangles(id);
+/// Whether the back of the light, or its edge, is what `reference` sees.
+FN bool is_behind(IN(EmissiveTriangle) light, vec3 reference) {
+    return dot(light.vertex_0 - reference, light.front) >= 0.0f;
+}
+
+/// A point of the light, as triangle_sampling.h picks it.
+FN TriangleSample sample_emitter_point(IN(EmissiveTriangle) light, vec3 reference, vec2 u) {
     PRECISE vec3 to_vertex_0 = light.vertex_0 - reference;
-    bool behind = dot(to_vertex_0, light.front) >= 0.0f;
-    bool one_sided = MUTANT(ONE_SIDED_AS_TWO_SIDED, (light.flags & EMITTER_TWO_SIDED) == 0u, false);
-    if (behind && one_sided) {
-        return s;
-    }
     TriangleView view = triangle_view(to_vertex_0, light.edge_1, light.edge_2, light.front, light.double_area);
-    TriangleSample t = sample_triangle_view(view, to_vertex_0, light.edge_1, light.edge_2, u);
+    return sample_triangle_view(view, to_vertex_0, light.edge_1, light.edge_2, u);
+}
+
+/// The light at a point by sample_emitter_point.
+FN LightSample sample_emitter(IN(EmissiveTriangle) light, vec3 reference, IN(TriangleSample) t) {
+    LightSample s = no_light();
     if (!(t.pdf > 0.0f)) {
         return s;
     }
@@ -151,7 +155,7 @@ FN LightSample sample_emitter(uint id, vec3 reference, vec2 u) {
     s.radiance = emitter_radiance(light, t.barycentrics);
     s.pdf = MUTANT(NO_LIGHT_PICK_PDF, light.pmf, 1.0f) * t.pdf;
     vec3 end = MUTANT(SHADOW_RAY_TO_WRONG_LIGHT, point, load_emissive_triangles(0u).vertex_0);
-    s.end = offset_ray(end, behind ? -light.front : light.front);
+    s.end = offset_ray(end, is_behind(light, reference) ? -light.front : light.front);
     return s;
 }
 
@@ -182,24 +186,40 @@ FN LightSample see_punctual(IN(PunctualLight) light, vec3 reference) {
     return s;
 }
 
-/// One light in proportion to its power (and a defensive share of uniform picking) and a point on it. `dimension` is the vertex's
-/// first (dimensions.h), `draws` its first four pairs.
-FN LightSample sample_light(vec3 reference, IN(FourPairs) draws, IN(Sampler) random, uint dimension) {
+// Any light. `draws` are the vertex's first four pairs (dimensions.h).
+
+FN bool is_emitter(uint id) { return feature(FEATURE_EMISSIVE) && id < constants.emissive_triangle_count; }
+
+/// A light in proportion to its power (and a defensive share of uniform picking); NONE where that shows a back that does not emit.
+FN uint pick_light(vec3 reference, IN(FourPairs) draws) {
     if (constants.light_count == 0u) {
-        return no_light();
+        return NONE;
     }
     uint column = alias_column(draws.first.z, constants.light_count);
     uint id = alias_pick(load_light_table(column), column, draws.second.z);
     RECORD(light, id);
-    vec2 u = vec2(unit_float(draws.first.w), unit_float(draws.second.w));
-    if (feature(FEATURE_EMISSIVE) && id < constants.emissive_triangle_count) {
-        return sample_emitter(id, reference, u);
+    if (is_emitter(id)) {
+        LOCAL(EmissiveTriangle) light = load_emissive_triangles(id);
+        bool one_sided = MUTANT(ONE_SIDED_AS_TWO_SIDED, (light.flags & EMITTER_TWO_SIDED) == 0u, false);
+        return one_sided && is_behind(light, reference) ? NONE : id;
     }
-    id -= constants.emissive_triangle_count;
+    return id;
+}
+
+/// Where on a light.
+FN vec2 light_point_draws(IN(FourPairs) draws) { return vec2(unit_float(draws.first.w), unit_float(draws.second.w)); }
+
+/// The light picked, at a point of it: of an emitter, at `on_emitter`. `dimension` is the vertex's first.
+FN LightSample sample_light(uint picked, IN(TriangleSample) on_emitter, vec3 reference, IN(FourPairs) draws,
+                            IN(Sampler) random, uint dimension) {
+    if (is_emitter(picked)) {
+        return sample_emitter(load_emissive_triangles(picked), reference, on_emitter);
+    }
+    uint id = picked - constants.emissive_triangle_count;
     if (feature(FEATURE_PUNCTUAL) && id < constants.punctual_light_count) {
         return see_punctual(load_punctual_lights(id), reference);
     }
-    return sample_environment(random, dimension, u);
+    return sample_environment(random, dimension, light_point_draws(draws));
 }
 
 #endif

@@ -71,20 +71,17 @@ FN SeenLight see_emitter(IN(EmissiveTriangle) light, vec2 barycentrics, vec3 ref
     SeenLight s = unseen_light();
     vec3 point = light.vertex_0 + barycentrics.x * light.edge_1 + barycentrics.y * light.edge_2;
     vec3 to_light = point - reference;
-    vec3 across = cross(light.edge_1, light.edge_2);
-    across = (light.flags & EMITTER_MIRRORED) != 0u ? -across : across;
-    float facing = -dot(across, to_light);
+    float facing = -dot(light.front, to_light);
     float squared = dot(to_light, to_light);
     if (!(squared > 0.0f) || (facing <= 0.0f && (light.flags & EMITTER_TWO_SIDED) == 0u)) {
         return s;
     }
     float inverse = inversesqrt(squared);
     s.direction = to_light * inverse;
-    s.measure = abs(facing) * inverse * inverse * inverse;
+    s.measure = light.double_area * abs(facing) * inverse * inverse * inverse;
     s.radiance = emitter_radiance(light, barycentrics);
     s.by_chance = !may_be_passed(light);
-    vec3 front = normalize_or(across, s.direction);
-    s.end = offset_ray(point, facing < 0.0f ? -front : front);
+    s.end = offset_ray(point, facing < 0.0f ? -light.front : light.front);
     return s;
 }
 

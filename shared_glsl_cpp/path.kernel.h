@@ -76,33 +76,43 @@ FN DirectLight no_direct_light() {
     return direct;
 }
 
-/// `origin` is where rays leave the surface.
-FN DirectLight sample_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) bsdf, IN(SeenBsdf) seen,
-                                   IN(FourPairs) draws, IN(Sampler) random, uint dimension) {
+/// Where a path has arrived and scatters.
+struct Vertex {
+    vec3 position;
+    vec3 origin;  // where rays leave the surface
+    SurfaceBsdf bsdf;
+    SeenBsdf seen;
+    uint dimension;  // its first
+    FourPairs draws;
+    uint light;                 // picked; NONE where there is none to sample
+    TriangleSample on_emitter;  // where an emitter is picked: a point of it
+};
+
+/// Of a vertex with a light picked.
+FN DirectLight sample_direct_light(IN(Vertex) v, IN(Sampler) random) {
     DirectLight direct = no_direct_light();
-    LightSample light = sample_light(position, draws, random, dimension);
+    LightSample light = sample_light(v.light, v.on_emitter, v.position, v.draws, random, v.dimension);
     RECORD(light_pdf, light.pdf);
     if (!(light.pdf > 0.0f) || is_black(light.radiance)) {
         return direct;
     }
-    BsdfValue f = surface_bsdf_eval_pdf(bsdf, seen, light.direction, features());
+    BsdfValue f = surface_bsdf_eval_pdf(v.bsdf, v.seen, light.direction, features());
     direct.radiance = f.value * light.radiance * (light_sampling_weight(light, f.pdf) / light.pdf);
-    direct.direction = light.distant ? light.direction : light.end - origin;
+    direct.direction = light.distant ? light.direction : light.end - v.origin;
     direct.t_max = light.distant ? INFINITE_DISTANCE : MUTANT(SHORT_SHADOW_RAY, 0.9999f, 0.9999f * 0.99f);
     return direct;
 }
 
 /// Light from a point that resampling chose, weighed by its W.
-FN DirectLight resampled_direct_light(vec3 position, vec3 origin, IN(SurfaceBsdf) bsdf, IN(SeenBsdf) seen,
-                                      IN(Reservoir) chosen) {
+FN DirectLight resampled_direct_light(IN(Vertex) v, IN(Reservoir) chosen) {
     DirectLight direct = no_direct_light();
     if (!(chosen.weight > 0.0f)) {
         return direct;
     }
-    SeenLight light = see_light_point(chosen.point, position, MOMENT_CURRENT);
-    BsdfValue f = surface_bsdf_eval_pdf(bsdf, seen, light.direction, features());
+    SeenLight light = see_light_point(chosen.point, v.position, MOMENT_CURRENT);
+    BsdfValue f = surface_bsdf_eval_pdf(v.bsdf, v.seen, light.direction, features());
     direct.radiance = f.value * light.radiance * (light.measure * chosen.weight);
-    direct.direction = light.distant ? light.direction : light.end - origin;
+    direct.direction = light.distant ? light.direction : light.end - v.origin;
     direct.t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
     return direct;
 }
@@ -201,15 +211,15 @@ FN uint next_ray_key(IN(PathState) path) { return ray_alpha_key(path.random, 2u 
 
 FN uint shadow_ray_key(IN(PathState) path) { return ray_alpha_key(path.random, 2u * path.depth - 1u); }
 
-/// The path's ray has been traced: adds what light it found, samples a light for where it ended, and scatters it there. Visibility
-/// of the sampled light is left to the caller, so that a GPU has one place where it traces and keeps no surface across it.
-FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
+/// The path's ray has been traced: adds what light it found, and picks a light for where it ended. Whether it scatters there: then
+/// a point on the emitter picked, if any, and leave_vertex are to follow.
+FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
     uint depth = path.depth;
     path.found.rays += 1u;
     path.goes_on = false;
     if (hit.instance == NONE) {
         add_environment(path);
-        return;
+        return false;
     }
     vec3 wo = -path.direction;
     LOCAL(Instance) instance = load_instances(hit.instance);
@@ -223,35 +233,49 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
                 (material.flags & MATERIAL_UNLIT) != 0u;
     bool wants_layers = feature(FEATURE_FIRST_HIT_LAYERS) && depth == 0u;
     if (last && !wants_layers) {
-        return;
+        return false;
     }
-    SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
-    RECORD(normal, bsdf.mapped_normal);
+    v.bsdf = load_bsdf(surface, instance, material, wo);
+    RECORD(normal, v.bsdf.mapped_normal);
     if (wants_layers) {
         path.found.first_hit.albedo = xyz(base_color(material, surface.mesh));
-        path.found.first_hit.normal = bsdf.mapped_normal;
+        path.found.first_hit.normal = v.bsdf.mapped_normal;
         path.found.first_hit.depth = hit.t;
     }
     if (last) {
-        return;
+        return false;
     }
-
-    SeenBsdf seen = see_bsdf(bsdf, wo, features());
-    path.origin = offset_ray(surface.position, bsdf.geometric_normal);  // nothing is scattered through the surface
-    uint dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
-    FourPairs draws = sample_bits_four_pairs(path.random, dimension);
+    v.seen = see_bsdf(v.bsdf, wo, features());
+    v.position = surface.position;
+    v.origin = offset_ray(surface.position, v.bsdf.geometric_normal);  // nothing is scattered through the surface
+    v.dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
+    v.draws = sample_bits_four_pairs(path.random, v.dimension);
+    v.light = NONE;
     path.light_is_complete = depth == 0u && resamples_first_vertex();
-    if (path.light_is_complete) {
-        path.direct = resampled_direct_light(surface.position, path.origin, bsdf, seen, path.reservoir);
-    } else if (feature(FEATURE_LIGHT_SAMPLING) && !bsdf_is_purely_delta(bsdf.parameters, features())) {
-        path.direct = sample_direct_light(surface.position, path.origin, bsdf, seen, draws, path.random, dimension);
+    if (!path.light_is_complete && feature(FEATURE_LIGHT_SAMPLING) &&
+        !bsdf_is_purely_delta(v.bsdf.parameters, features())) {
+        v.light = pick_light(v.position, v.draws);
+    }
+    return true;
+}
+
+/// Samples the light picked, or takes what resampling chose, and scatters the path. Visibility of the light is left to the caller, so
+/// that a GPU has one place where it traces and keeps no surface across it.
+FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
+    uint depth = path.depth;
+    if (path.light_is_complete || v.light != NONE) {
+        if (path.light_is_complete) {
+            path.direct = resampled_direct_light(v, path.reservoir);
+        } else {
+            path.direct = sample_direct_light(v, path.random);
+        }
         path.direct.radiance = path.throughput * path.direct.radiance;
         RECORD(direct, path.direct.radiance);
     }
 
-    vec2 u_direction = vec2(unit_float(draws.first.x), unit_float(draws.second.x));
-    vec2 u_lobe = vec2(unit_float(draws.first.y), unit_float(draws.second.y));
-    BsdfSample next = surface_bsdf_sample(bsdf, seen, u_lobe, u_direction, features());
+    vec2 u_direction = vec2(unit_float(v.draws.first.x), unit_float(v.draws.second.x));
+    vec2 u_lobe = vec2(unit_float(v.draws.first.y), unit_float(v.draws.second.y));
+    BsdfSample next = surface_bsdf_sample(v.bsdf, v.seen, u_lobe, u_direction, features());
     path.throughput = path.throughput * next.weight;
     path.only_strategy = next.delta != 0u;
     bool goes_on = next.pdf > 0.0f && max_component(path.throughput) > 0.0f;
@@ -261,7 +285,7 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     }
     float survival = survival_probability(path.throughput, depth);
     if (goes_on && survival < 1.0f) {
-        float u = sample_1d(path.random, dimension + DIMENSION_ROULETTE);
+        float u = sample_1d(path.random, v.dimension + DIMENSION_ROULETTE);
         goes_on = u < survival;
         path.throughput = path.throughput * MUTANT(ROULETTE_NOT_DIVIDED, 1.0f / survival, 1.0f);
         RECORD(survival, survival);
@@ -271,10 +295,24 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     RECORD(bsdf_pdf, next.pdf);
     RECORD(throughput, path.throughput);
     path.pdf_direction = next.pdf;
-    path.reference = surface.position;
+    path.origin = v.origin;
+    path.reference = v.position;
     path.direction = next.direction;
     path.depth = depth + 1u;
     path.goes_on = goes_on;
+}
+
+/// Both, for one path alone.
+FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
+    Vertex v;
+    if (!arrive_at_vertex(path, hit, v)) {
+        return;
+    }
+    if (is_emitter(v.light)) {
+        LOCAL(EmissiveTriangle) light = load_emissive_triangles(v.light);
+        v.on_emitter = sample_emitter_point(light, v.position, light_point_draws(v.draws));
+    }
+    leave_vertex(path, v);
 }
 
 FN bool awaits_shadow_ray(IN(PathState) path) { return !is_black(path.direct.radiance); }

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "backend/cpu_kernel.h"
+#include "backend/path_batch.h"
 #include "backend/path_recording.h"
 
 namespace diptych {
@@ -123,16 +123,25 @@ private:
         shared::FilmFirstHit& first_hit;
     };
 
-    template <class Body>
-    static void for_pixels(Film& film, int tile_x, int tile_y, const Body& body) {
+    struct FilmEntries {
+        Film& film;
         shared::FilmMoments no_moments{};
         shared::FilmFirstHit no_first_hit{};
+
+        FilmEntry at(int x, int y) {
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(x);
+            return {film.pixels[i], film.moments.empty() ? no_moments : film.moments[i],
+                    film.first_hits.empty() ? no_first_hit : film.first_hits[i]};
+        }
+    };
+
+    template <class Body>
+    static void for_pixels(Film& film, int tile_x, int tile_y, const Body& body) {
+        FilmEntries entries{film};
         for (int y = tile_y * tile_size; y < std::min((tile_y + 1) * tile_size, film.height); ++y) {
             for (int x = tile_x * tile_size; x < std::min((tile_x + 1) * tile_size, film.width); ++x) {
-                const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
-                                      static_cast<std::size_t>(x);
-                body(shared::uvec2(x, y), {film.pixels[i], film.moments.empty() ? no_moments : film.moments[i],
-                                           film.first_hits.empty() ? no_first_hit : film.first_hits[i]});
+                body(shared::uvec2(x, y), entries.at(x, y));
             }
         }
     }
@@ -140,11 +149,20 @@ private:
     template <class Kernel>
     void accumulate_tile(Kernel& kernel, Film& film, int tile_x, int tile_y, std::uint32_t first,
                          std::uint32_t count) const {
-        for_pixels(film, tile_x, tile_y, [&](shared::uvec2 pixel, FilmEntry entry) {
+        FilmEntries entries{film};
+        PathBatch<Kernel> batch(kernel);
+        static_assert(batch.size == tile_size);
+        const int left = tile_x * tile_size;
+        const int columns = std::min(tile_size, film.width - left);
+        for (int y = tile_y * tile_size; y < std::min((tile_y + 1) * tile_size, film.height); ++y) {
             for (std::uint32_t sample = first; sample < first + count; ++sample) {
-                kernel.add_path(kernel.trace_path(pixel, sample), entry.pixel, entry.moments, entry.first_hit);
+                batch.trace(static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(y), columns, sample);
+                for (int x = 0; x < columns; ++x) {
+                    const FilmEntry entry = entries.at(left + x, y);
+                    kernel.add_path(batch.found(x), entry.pixel, entry.moments, entry.first_hit);
+                }
             }
-        });
+        }
     }
 
     bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
@@ -196,7 +214,7 @@ private:
     /// One function with everything inlined, so that what a path carries along stays in registers.
     template <std::uint32_t FEATURES>
     [[gnu::flatten, gnu::noinline]] void accumulate_flat_tile(Film& film, int tile_x, int tile_y, std::uint32_t first,
-                                               std::uint32_t count) const {
+                                                              std::uint32_t count) const {
         shared::CpuKernel<PlainTracer, FEATURES> kernel{*packed_, constants_, {*scene_}};
         accumulate_tile(kernel, film, tile_x, tile_y, first, count);
     }
