@@ -72,11 +72,13 @@ TEST_CASE("what is needed and what is left out follow the options", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const auto plain = info(folder, scene);
-    CHECK(has(plain.at("features"), "ggx"));
+    CHECK(has(plain.at("left_out"), "ggx"));  // nothing there reflects but diffusely
     CHECK(has(plain.at("left_out"), "blinn-phong"));
     CHECK(has(plain.at("left_out"), "textures"));
     CHECK(has(plain.at("left_out"), "environment-map"));
-    const auto phong = info(folder, scene, {"--brdf", "blinn-phong", "--env", "1,1,1", "--integrator", "brdf"});
+    const std::string glossy = generate_scene(folder, "veach-mis");
+    CHECK(has(info(folder, glossy).at("features"), "ggx"));
+    const auto phong = info(folder, glossy, {"--brdf", "blinn-phong", "--env", "1,1,1", "--integrator", "brdf"});
     CHECK(has(phong.at("features"), "blinn-phong"));
     CHECK(has(phong.at("left_out"), "ggx"));
     CHECK(has(phong.at("features"), "constant-environment"));
