@@ -19,6 +19,7 @@ struct RenderArguments {
     std::string mis = "power";
     std::string resampling_mis = "pairwise";
     std::string resampling_visibility = "shading";
+    std::vector<CLI::Option*> resampling_options;  // that mean nothing without ris or restir
     std::string size;
     std::vector<CLI::Option*> panel_options;  // those that mean nothing to the oracle
     CLI::Option* oracle_option = nullptr;     // --oracle-mode
@@ -46,6 +47,12 @@ void resolve_oracle_mode(const RenderArguments& arguments);
 /// How ris and restir resample; add_scene_options and resolve_names call these.
 void add_resampling_options(CLI::App& command, RenderArguments& arguments);
 void resolve_resampling_names(RenderArguments& arguments);
+
+/// Throws Error for an integrator whose samples depend on one another, in a command that takes each by itself.
+void refuse_resampling(const char* option, Integrator integrator, const char* command);
+
+/// Throws Error where an option of resampling was given to an integrator that would ignore it.
+void refuse_idle_resampling_options(const RenderArguments& arguments);
 
 /// Names to values, and options that contradict the backend refused. Throws Error naming the option.
 void resolve_names(RenderArguments& arguments);

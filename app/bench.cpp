@@ -175,7 +175,7 @@ int run_bench(Options options) {
         throw Error("--backend oracle: bench measures the panels, cpu and vulkan");
     }
     for (const std::string& name : options.integrators) {
-        integrator_from_name(name);
+        refuse_resampling("--integrators", integrator_from_name(name), "bench");
     }
     const Scene scene = prepare_scene(options.arguments);
     std::vector<Entry> entries;

@@ -18,6 +18,12 @@ bool same_entry(const LayeredImage& a, const LayeredImage& b, const char* name) 
     return in_a != a.metadata.end() && in_b != b.metadata.end() && in_a->second == in_b->second;
 }
 
+/// Frames of restir reuse what those before them found.
+bool is_correlated(const LayeredImage& image) {
+    const auto integrator = image.metadata.find("integrator");
+    return integrator != image.metadata.end() && integrator->second == "restir";
+}
+
 /// How far the means are apart, in percent, over the channel where that is most.
 double mean_difference_percent(const Difference& difference) {
     double most = 0;
@@ -42,6 +48,7 @@ double largest_z(const Difference& difference) {
 
 Verdict judge(const Difference& difference, const LayeredImage& a, const LayeredImage& b) {
     Verdict verdict;
+    verdict.correlated = is_correlated(a) || is_correlated(b);
     verdict.same_random_numbers = same_entry(a, b, "seed") && same_entry(a, b, "sampler");
     const std::string apart = fmt::format("The means differ by at most {:.2g} %, {:.2f} % of the pixels agree to 0.1 %",
                                           mean_difference_percent(difference), 100 * difference.fraction_equal);
@@ -52,6 +59,8 @@ Verdict judge(const Difference& difference, const LayeredImage& a, const Layered
         verdict.text = apart + ": both drew the same random numbers, and what is left is rounding.";
     } else if (verdict.same_random_numbers) {
         verdict.text = apart + "; both drew the same random numbers, so whether that is noise cannot be told.";
+    } else if (verdict.correlated) {
+        verdict.text = apart + "; restir's samples are correlated, so whether that is noise is for verify to tell.";
     } else if (std::isnan(z)) {
         verdict.text = apart + "; without standard errors, whether that is noise cannot be told.";
     } else {

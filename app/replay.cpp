@@ -60,6 +60,7 @@ void print_result(const Options& options, const Replay& replay, const shared::Re
 int run_replay(Options options) {
     RenderRequest& request = options.arguments.request;
     resolve_names(options.arguments);
+    refuse_resampling("--integrator", options.arguments.request.settings.integrator, "replay");
     check_pair(options.pair);
     request.settings.sample_count = options.sample_count;
     const Scene scene = prepare_scene(options.arguments);

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include "arguments.h"
+#include "error.h"
 #include "render/settings_names.h"
 #include "scene_types.h"
 
@@ -7,10 +10,12 @@ namespace diptych::app {
 void add_resampling_options(CLI::App& command, RenderArguments& arguments) {
     ResamplingSettings& settings = arguments.request.settings.resampling;
     const auto add = [&](const char* name, auto& value, const char* help) {
-        return command.add_option(name, value, help)->group("Resampling (ris, restir)")->capture_default_str();
+        CLI::Option* option = command.add_option(name, value, help);
+        arguments.resampling_options.push_back(option);
+        return option->group("Resampling (ris, restir)")->capture_default_str();
     };
     const auto flag = [&](const char* name, bool& value, const char* help) {
-        command.add_flag(name, value, help)->group("Resampling (ris, restir)");
+        arguments.resampling_options.push_back(command.add_flag(name, value, help)->group("Resampling (ris, restir)"));
     };
     add("--candidates", settings.light_candidates, "Light points a pixel and frame, picked by power")
         ->check(CLI::Range(1, 1024));
@@ -32,6 +37,21 @@ void resolve_resampling_names(RenderArguments& arguments) {
     ResamplingSettings& settings = arguments.request.settings.resampling;
     settings.mis = resampling_mis_from_name(arguments.resampling_mis);
     settings.visibility = resampling_visibility_from_name(arguments.resampling_visibility);
+}
+
+void refuse_resampling(const char* option, Integrator integrator, const char* command) {
+    if (resamples(integrator)) {
+        throw Error(fmt::format("{} {}: {} takes every sample by itself, and its frames are resampled together", option,
+                                name_of(integrator), command));
+    }
+}
+
+void refuse_idle_resampling_options(const RenderArguments& arguments) {
+    for (const CLI::Option* option : arguments.resampling_options) {
+        if (option->count() > 0 && !resamples(arguments.request.settings.integrator)) {
+            throw Error(fmt::format("{}: goes with --integrator ris or restir", option->get_name()));
+        }
+    }
 }
 
 }  // namespace diptych::app

@@ -170,6 +170,9 @@ int run_paired(RenderArguments arguments, const PairArguments& pair, const Paire
     if (pair.backends.size() != 2) {
         throw Error("--paired: compares two backends, as --backends cpu,vulkan");
     }
+    for (const Integrator integrator : options.integrators) {
+        refuse_resampling("--integrators", integrator, "verify --paired");
+    }
     if (!options.folder.empty() && !std::filesystem::is_directory(options.folder)) {
         throw Error(fmt::format("{}: is not a folder", options.folder));
     }

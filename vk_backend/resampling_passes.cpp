@@ -48,19 +48,4 @@ Spirv resampling_shader(ResamplingStage stage) {
     return shader_binary("restir_shade.rgen");
 }
 
-bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants) {
-    const bool resamples = constants.integrator >= shared::INTEGRATOR_RIS;
-    const bool reuses = constants.integrator == shared::INTEGRATOR_RESTIR;
-    switch (stage) {
-        case ResamplingStage::temporal:
-            return reuses && constants.resampling.temporal != 0;
-        case ResamplingStage::spatial:
-            return reuses && constants.resampling.spatial_passes > 0;
-        case ResamplingStage::candidates:
-        case ResamplingStage::shade:
-            break;
-    }
-    return resamples;
-}
-
 }  // namespace diptych

@@ -29,7 +29,4 @@ std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory);
 /// The ray generation shader of a stage.
 Spirv resampling_shader(ResamplingStage stage);
 
-/// Whether any frame will run the stage.
-bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants);
-
 }  // namespace diptych

@@ -93,8 +93,7 @@ std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings
                                     shared::FEATURE_ENVIRONMENT_MAP | shared::FEATURE_PUNCTUAL)) != 0;
     const bool samples_lights =
         settings.integrator == Integrator::brdf ? (bits & shared::FEATURE_PUNCTUAL) != 0 : has_light;
-    const bool resamples = settings.integrator == Integrator::ris || settings.integrator == Integrator::restir;
-    bits |= resamples ? shared::FEATURE_RESAMPLING : 0U;
+    bits |= resamples(settings.integrator) ? shared::FEATURE_RESAMPLING : 0U;
     bits |= settings.integrator == Integrator::restir && settings.moves ? shared::FEATURE_MOTION : 0U;
     bits |= samples_lights ? shared::FEATURE_LIGHT_SAMPLING : 0U;
     return bits;

@@ -15,6 +15,21 @@ glm::dvec3 rebase_origin(const Scene& scene, const RenderSettings& settings) {
     return glm::dvec3(scene.cameras[static_cast<std::size_t>(settings.camera)].camera_to_world[3]);
 }
 
+/// Copies of the view fill the film: a part of one would reuse pixels that are not there.
+void check_atlas(const RenderSettings& settings) {
+    const auto tile = static_cast<int>(settings.atlas_tile);
+    if (tile == 0) {
+        return;
+    }
+    if (!resamples(settings.integrator)) {
+        throw Error("--atlas " + std::to_string(tile) + ": goes with --integrator ris or restir");
+    }
+    if (settings.width % tile != 0 || settings.height % tile != 0) {
+        throw Error("--atlas " + std::to_string(tile) + ": does not divide the size of " +
+                    std::to_string(settings.width) + "x" + std::to_string(settings.height));
+    }
+}
+
 void pack_settings(const RenderSettings& settings, shared::RenderConstants& c) {
     c.size = {static_cast<std::uint32_t>(settings.width), static_cast<std::uint32_t>(settings.height)};
     c.seed = settings.seed;
@@ -66,6 +81,7 @@ std::uint64_t buffer_bytes(const PackedScene& packed) {
 }
 
 PackedScene pack_scene(const Scene& scene, const RenderSettings& settings) {
+    check_atlas(settings);
     PackedScene packed;
     packed.features = needed_features(scene, settings);
     pack_settings(settings, packed.constants);

@@ -64,7 +64,7 @@ void add_picture_options(std::string& command, const RenderRequest& request) {
     if (!oracle && settings.sampler == SamplerKind::hammersley) {
         add_option(command, "--sample-count", settings.sample_count);
     }
-    if (!oracle && (settings.integrator == Integrator::ris || settings.integrator == Integrator::restir)) {
+    if (!oracle && resamples(settings.integrator)) {
         add_resampling_options(command, settings);
     }
     if (!request.camera.empty()) {

@@ -2,13 +2,27 @@
 
 namespace diptych {
 
+bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants) {
+    const bool reuses = constants.integrator == shared::INTEGRATOR_RESTIR;
+    switch (stage) {
+        case ResamplingStage::temporal:
+            return reuses && constants.resampling.temporal != 0;
+        case ResamplingStage::spatial:
+            return reuses && constants.resampling.spatial_passes > 0;
+        case ResamplingStage::candidates:
+        case ResamplingStage::shade:
+            break;
+    }
+    return constants.integrator >= shared::INTEGRATOR_RIS;
+}
+
 ResamplingSets resampling_sets(const shared::RenderConstants& constants) {
-    if (constants.integrator < shared::INTEGRATOR_RIS) {
+    if (!needs_stage(ResamplingStage::candidates, constants)) {
         return {};
     }
     const bool reuses = constants.integrator == shared::INTEGRATOR_RESTIR;
-    const bool temporal = reuses && constants.resampling.temporal != 0;
-    const bool spatial = reuses && constants.resampling.spatial_passes > 0;
+    const bool temporal = needs_stage(ResamplingStage::temporal, constants);
+    const bool spatial = needs_stage(ResamplingStage::spatial, constants);
     return {.first_vertices = 1, .reservoirs = temporal || spatial ? 2U : 1U, .surfaces = temporal ? 2U : reuses ? 1U : 0U};
 }
 
@@ -33,12 +47,12 @@ std::vector<ResamplingStep> ResamplingSchedule::next_frame(std::uint32_t frame) 
     pass.has_history = follows ? 1 : 0;
     pass.reservoirs = current;
     std::vector<ResamplingStep> steps{{ResamplingStage::candidates, pass}};
-    const bool reuses = constants_.integrator == shared::INTEGRATOR_RESTIR;
-    if (reuses && constants_.resampling.temporal != 0 && follows) {
+    if (follows && needs_stage(ResamplingStage::temporal, constants_)) {
         pass.other_reservoirs = history_;
         steps.push_back({ResamplingStage::temporal, pass});
     }
-    for (std::uint32_t i = 0; reuses && i < constants_.resampling.spatial_passes; ++i) {
+    const bool spatial = needs_stage(ResamplingStage::spatial, constants_);
+    for (std::uint32_t i = 0; spatial && i < constants_.resampling.spatial_passes; ++i) {
         pass.iteration = i;
         pass.reservoirs = current;
         pass.other_reservoirs = 1 - current;

@@ -12,6 +12,8 @@ enum class MisHeuristic { power, balance };
 enum class ResamplingMis { pairwise, balance, one_over_z, biased_one_over_m };
 enum class ResamplingVisibility { shading, target, biased_initial, biased_final };
 
+inline bool resamples(Integrator integrator) { return integrator == Integrator::ris || integrator == Integrator::restir; }
+
 /// How `ris` and `restir` resample; see ResamplingConstants in shared_glsl_cpp/scene_types.h.
 struct ResamplingSettings {
     std::uint32_t light_candidates = 8;
