@@ -102,7 +102,7 @@ void add_oracle_option(CLI::App& command, RenderArguments& arguments) {
     arguments.oracle_option =
         command
             .add_option("--oracle-mode", arguments.request.oracle_mode,
-                        "How the oracle, which has no --integrator, finds light: bsdf, hemisphere or area")
+                        "How the oracle, which has no --integrator, finds light: mis, bsdf, hemisphere or area")
             ->capture_default_str();
 }
 

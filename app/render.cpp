@@ -23,7 +23,7 @@ namespace {
 constexpr const char* examples = R"(Examples:
   diptych render scene.gltf -o picture.exr
   diptych render scene.glb -o picture.png --backend vulkan --time 10 --size 1920x1080 --tonemap aces
-  diptych render scene.gltf -o truth.exr --backend oracle --oracle-mode area --spp 4096
+  diptych render scene.gltf -o truth.exr --backend oracle --spp 4096
   diptych render scene.gltf -o picture.exr --env studio.hdr --env-rotate 90 --camera Front --spp 1024
   diptych render scene.glb -o walk.####.exr --frames 96 --fps 24 --camera moving
   diptych render scene.glb -o around.png --frames 36 --orbit 10 --tonemap aces

@@ -35,12 +35,12 @@ struct VerifyOptions {
 struct SideName {
     std::string backend;
     Integrator integrator = Integrator::path;
-    std::string oracle_mode = "bsdf";
+    std::string oracle_mode = "mis";
 
     bool operator==(const SideName&) const = default;
 };
 
-/// "cpu/path", "oracle/bsdf".
+/// "cpu/path", "oracle/mis".
 std::string text_of(const SideName& side);
 
 struct PairName {

@@ -15,7 +15,7 @@ struct RenderRequest {
     std::vector<std::string> ignored_extensions;  // required by the file, lacking here, and done without
     std::string output;  // file
     std::string backend = "cpu";       // cpu, vulkan or oracle
-    std::string oracle_mode = "bsdf";  // oracle: bsdf, hemisphere or area
+    std::string oracle_mode = "mis";   // oracle: mis, bsdf, hemisphere or area
     std::string device;       // vulkan: index or name; empty is the best
     std::string camera;       // name or index; empty is the first
     std::string environment;  // "R,G,B" or a file; empty is the scene's own

@@ -120,6 +120,22 @@ Scattered sample(const Bsdf& bsdf, const dvec3& n, const dvec3& o, Random& rando
     return drawn;
 }
 
+double density(const Bsdf& bsdf, const dvec3& n, const dvec3& o, const dvec3& i) {
+    const double cos_i = dot(i, n);
+    if (!(dot(o, n) > 0 && cos_i > 0)) {
+        return 0;
+    }
+    const double share = specular_share(bsdf, n, o);
+    double sum = (1 - share) * cos_i / pi;
+    if (share > 0 && !bsdf.is_mirror()) {
+        const dvec3 h = normalize(o + i);
+        const dvec3 across = cross(h, n);
+        const double d = ndf(bsdf.model, bsdf.alpha, dot(h, n), dot(across, across));
+        sum += share * d * dot(h, n) / (4 * dot(o, h));  // Walter et al. 2007, eq. 14, 24
+    }
+    return sum;
+}
+
 dvec3 around(const dvec3& n, double c, double angle) {
     const dvec3 helper = std::abs(n.x) < 0.6 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
     const dvec3 t = normalize(cross(helper, n));

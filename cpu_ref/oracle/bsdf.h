@@ -49,6 +49,9 @@ dvec3 evaluate(const Bsdf& bsdf, const dvec3& n, const dvec3& o, const dvec3& i)
 /// Picks the diffuse or the specular part and draws from it: cosine, D(h) cos(h), or the mirrored direction.
 Scattered sample(const Bsdf& bsdf, const dvec3& n, const dvec3& o, Random& random);
 
+/// Of `sample`'s draws at i a steradian, both parts together; a mirror's part, which has none, left out.
+double density(const Bsdf& bsdf, const dvec3& n, const dvec3& o, const dvec3& i);
+
 /// The mirror's part alone; weight 0 where there is none.
 Scattered sample_mirror(const Bsdf& bsdf, const dvec3& n, const dvec3& o);
 

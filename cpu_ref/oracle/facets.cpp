@@ -118,4 +118,20 @@ Scattered sample(const Facets& f, const Bsdf& bsdf, const dvec3& o, bool only_mi
     return drawn;
 }
 
+double density(const Facets& f, const Bsdf& bsdf, const dvec3& o, const dvec3& i) {
+    if (!leaves(f, i)) {
+        return 0;
+    }
+    if (f.is_flat()) {
+        return density(bsdf, f.g, o, i);
+    }
+    const double share = visible_share(f, o);
+    double sum = share * density(bsdf, f.p, o, i) * masking(f, i);
+    if (dot(i, f.t) > 0) {
+        const dvec3 before = flip_across(i, f.t);
+        sum += share * density(bsdf, f.p, o, before) * (1 - masking(f, before));
+    }
+    return sum + (1 - share) * density(bsdf, f.p, flip_across(o, f.t), i);
+}
+
 }  // namespace diptych::oracle

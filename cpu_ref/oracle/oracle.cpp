@@ -40,11 +40,13 @@ struct Oracle::State {
     World world;
     Traversal traversal;
     Emitters emitters;
+    SkyMap sky;
     OracleImage image;
     tbb::task_arena arena;
 
     State(const Scene& scene, const OracleSettings& s, int threads)
-        : settings(s), world(make_world(scene)), traversal(world), emitters(world),
+        : settings(s), world(make_world(scene)), traversal(world),
+          emitters(world, emitter_choice(s.mode)), sky(scene.environment),
           arena(threads > 0 ? threads : tbb::task_arena::automatic) {
         image.pixels.resize(std::size_t(s.width) * std::size_t(s.height));
         image.depths.resize(s.by_depth ? image.pixels.size() * (s.max_depth + 1) : 0);
@@ -82,7 +84,7 @@ void Oracle::State::add(std::size_t index, const PathResult& path, const std::ve
 /// them.
 void Oracle::State::render_run(int x, int y, std::uint64_t run, std::uint64_t first, std::uint64_t end) {
     const Camera& camera = world.scene->cameras[std::size_t(settings.camera)];
-    const Paths paths{world, traversal, emitters, settings.distribution, settings.mode, settings.max_depth};
+    const Paths paths{world, traversal, emitters, sky, settings.distribution, settings.mode, settings.max_depth};
     const double width = settings.width;
     const double height = settings.height;
     const auto index = std::size_t(y) * std::size_t(settings.width) + std::size_t(x);

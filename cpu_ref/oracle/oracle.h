@@ -15,7 +15,7 @@ struct OracleSettings {
     int height = 64;
     unsigned max_depth = 8;  // scattering events
     std::uint64_t seed = 0;
-    oracle::Mode mode = oracle::Mode::bsdf;
+    oracle::Mode mode = oracle::Mode::mis;
     oracle::Distribution distribution = oracle::Distribution::ggx;
     int camera = 0;         // index into the scene's cameras
     bool by_depth = false;  // keep OracleImage::depths

@@ -17,6 +17,11 @@ struct Vertex {
     std::size_t triangle;
 };
 
+/// Of the material's draws at the vertex, a steradian.
+double scatter_density(const Vertex& vertex, const dvec3& direction) {
+    return density(vertex.surface.facets, vertex.surface.bsdf, vertex.surface.o, direction);
+}
+
 class PathTracer {
 public:
     PathTracer(const Paths& paths, Random& random, std::span<dvec3> by_depth)
@@ -32,6 +37,9 @@ private:
     dvec3 from_punctual(const Vertex& vertex, const PunctualLight& light);
     dvec3 from_punctuals(const Vertex& vertex);
     dvec3 from_emitters(const Vertex& vertex);
+    dvec3 from_sky(const Vertex& vertex);
+    double share_of_emission(const Ray& ray, const Hit& hit) const;
+    double share_of_sky(const dvec3& direction) const;
     Scattered scatter(const Surface& surface);
     Scattered scatter_uniformly(const Surface& surface);
 
@@ -40,6 +48,8 @@ private:
     std::span<dvec3> by_depth_;
     PathResult result_;
     dvec3 throughput_{1};
+    bool unrivalled_ = true;  // the ray came from the camera or off a mirror, so that no light sample finds what it finds
+    double density_ = 0;      // else, in mode mis: of its direction, a steradian
 };
 
 void PathTracer::add(unsigned depth, const dvec3& radiance) {
@@ -109,16 +119,49 @@ dvec3 PathTracer::from_emitters(const Vertex& vertex) {
     const dvec3 direction = to / distance;
     const double geometry = std::abs(dot(direction, emitter.front)) / (distance * distance);
     const dvec3 f = evaluate(vertex.surface.facets, vertex.surface.bsdf, vertex.surface.o, direction);
-    const dvec3 value = f * emitted(paths_.world, emitter, point.barycentrics, -direction) *
-                        (geometry * paths_.emitters.total_area() * coverage(paths_.world, emitter, point.barycentrics));
+    dvec3 value = f * emitted(paths_.world, emitter, point.barycentrics, -direction) *
+                  (geometry / point.density * coverage(paths_.world, emitter, point.barycentrics));
     if (value == dvec3(0)) {
         return value;
+    }
+    if (paths_.mode == Mode::mis) {
+        value *= point.density / (point.density + scatter_density(vertex, direction) * geometry);
     }
     Ray ray = ray_from(vertex, direction);
     ray.to = point.triangle;
     ray.t_max = distance * (1 - 1e-9);
     ++result_.rays;
     return paths_.traversal.any(ray) ? dvec3(0) : value;
+}
+
+dvec3 PathTracer::from_sky(const Vertex& vertex) {
+    const SkyMap::Direction sample = paths_.sky.sample(random_);
+    const dvec3 f = evaluate(vertex.surface.facets, vertex.surface.bsdf, vertex.surface.o, sample.direction);
+    if (f == dvec3(0)) {
+        return f;
+    }
+    const dvec3 value = f * environment_radiance(paths_.world.scene->environment, sample.direction) /
+                        (sample.density + scatter_density(vertex, sample.direction));
+    ++result_.rays;
+    return paths_.traversal.any(ray_from(vertex, sample.direction)) ? dvec3(0) : value;
+}
+
+/// The part of a hit's emission that is left to the ray, where light samples have theirs.
+double PathTracer::share_of_emission(const Ray& ray, const Hit& hit) const {
+    if (unrivalled_ || paths_.mode == Mode::bsdf || paths_.mode == Mode::hemisphere) {
+        return 1;
+    }
+    if (paths_.mode == Mode::area) {
+        return 0;
+    }
+    const double rival = paths_.emitters.density(hit.triangle);
+    const double geometry = std::abs(dot(ray.direction, paths_.world.triangles[hit.triangle].front)) / (hit.t * hit.t);
+    return rival > 0 ? density_ * geometry / (density_ * geometry + rival) : 1;
+}
+
+double PathTracer::share_of_sky(const dvec3& direction) const {
+    const double rival = unrivalled_ || paths_.mode != Mode::mis ? 0 : paths_.sky.density(direction);
+    return rival > 0 ? density_ / (density_ + rival) : 1;
 }
 
 Scattered PathTracer::scatter_uniformly(const Surface& surface) {
@@ -141,37 +184,42 @@ Scattered PathTracer::scatter(const Surface& surface) {
 }
 
 PathResult PathTracer::trace(Ray ray) {
-    bool emission_counts = true;
     const dvec3 eye = ray.origin;
     ray.coin = new_coin();
     for (unsigned depth = 0;; ++depth) {
         ++result_.rays;
         const std::optional<Hit> hit = paths_.traversal.closest(ray);
         if (!hit) {
-            add(depth, environment_radiance(paths_.world.scene->environment, ray.direction));
+            const dvec3 radiance = environment_radiance(paths_.world.scene->environment, ray.direction);
+            add(depth, radiance * share_of_sky(ray.direction));
             return result_;
         }
         const Surface surface = make_surface(paths_.world, paths_.model, *hit, -ray.direction);
         if (depth == 0) {
             result_.first = {surface.base_color, surface.facets.p, length(surface.position - eye)};
         }
-        if (emission_counts) {
-            add(depth, surface.emission);
+        if (surface.emission != dvec3(0)) {
+            add(depth, surface.emission * share_of_emission(ray, *hit));
         }
         if (!surface.scatters || depth == paths_.max_depth) {
             return result_;
         }
         const Vertex vertex{surface, hit->triangle};
         add(depth + 1, from_punctuals(vertex));
-        if (paths_.mode == Mode::area && !paths_.emitters.empty()) {
+        const bool samples_emitters = paths_.mode == Mode::area || paths_.mode == Mode::mis;
+        if (samples_emitters && !paths_.emitters.empty()) {
             add(depth + 1, from_emitters(vertex));
+        }
+        if (paths_.mode == Mode::mis && !paths_.sky.empty()) {
+            add(depth + 1, from_sky(vertex));
         }
         const Scattered next = scatter(surface);
         throughput_ *= next.weight;
         if (!survives(depth)) {
             return result_;
         }
-        emission_counts = paths_.mode != Mode::area || next.mirrored;
+        unrivalled_ = next.mirrored;
+        density_ = paths_.mode == Mode::mis && !next.mirrored ? scatter_density(vertex, next.i) : 0;
         ray = ray_from(vertex, next.i);
     }
 }

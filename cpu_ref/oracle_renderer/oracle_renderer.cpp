@@ -137,6 +137,9 @@ private:
 }  // namespace
 
 oracle::Mode oracle_mode_from_name(const std::string& name) {
+    if (name == "mis") {
+        return oracle::Mode::mis;
+    }
     if (name == "bsdf") {
         return oracle::Mode::bsdf;
     }
@@ -146,7 +149,7 @@ oracle::Mode oracle_mode_from_name(const std::string& name) {
     if (name == "area") {
         return oracle::Mode::area;
     }
-    throw Error(fmt::format("--oracle-mode {}: there are only bsdf, hemisphere, area", name));
+    throw Error(fmt::format("--oracle-mode {}: there are only mis, bsdf, hemisphere, area", name));
 }
 
 std::unique_ptr<Renderer> make_oracle_renderer(const Scene& scene, const RenderSettings& settings, oracle::Mode mode,

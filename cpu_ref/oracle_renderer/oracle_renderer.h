@@ -10,7 +10,7 @@
 
 namespace diptych {
 
-/// "bsdf", "hemisphere" or "area". Throws Error, listing them, where `name` is none.
+/// "mis", "bsdf", "hemisphere" or "area". Throws Error, listing them, where `name` is none.
 oracle::Mode oracle_mode_from_name(const std::string& name);
 
 /// Integrator, sampler, weights and features of the settings mean nothing to it. The scene must outlive it. `threads` 0 is one a

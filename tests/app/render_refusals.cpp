@@ -58,7 +58,7 @@ TEST_CASE("render refuses options out of range or at odds", "[app]") {
     refused({"--backend", "oracle", "--device", "0"}, {"--device", "--backend vulkan"});
     refused({"--backend", "oracle", "--integrator", "path"}, {"--integrator", "--backend oracle", "--oracle-mode"});
     refused({"--backend", "oracle", "--mis", "power"}, {"--mis", "--backend oracle", "--oracle-mode"});
-    refused({"--backend", "oracle", "--oracle-mode", "light"}, {"--oracle-mode light", "bsdf, hemisphere, area"});
+    refused({"--backend", "oracle", "--oracle-mode", "light"}, {"--oracle-mode light", "mis, bsdf, hemisphere, area"});
     refused({"--oracle-mode", "area"}, {"--oracle-mode", "--backend oracle"});
     refused({"--threads", "0"}, {"--threads"});
     refused({"--env", "1,2"}, {"--env 1,2", "R,G,B"});

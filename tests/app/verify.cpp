@@ -114,7 +114,7 @@ TEST_CASE("verify compares integrators with one reference", "[app]") {
     INFO(judged.err);
     REQUIRE(judged.exit_code == 0);
     const auto by_oracle = nlohmann::json::parse(judged.out);
-    CHECK(by_oracle.at("pairs")[1].at("b") == "oracle/bsdf");
+    CHECK(by_oracle.at("pairs")[1].at("b") == "oracle/mis");
     CHECK(by_oracle.at("pairs")[0].at("seed_b") == by_oracle.at("pairs")[1].at("seed_b"));
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("verify refuses what it cannot compare", "[app]") {
     };
     refused({"--integrators", "bdpt"}, {"bdpt", "brdf, direct, path"});
     refused({"--integrators", "path,path"}, {"--integrators", "path twice"});
-    refused({"--against", "oracle/bdpt"}, {"bdpt", "bsdf, hemisphere, area"});
+    refused({"--against", "oracle/bdpt"}, {"bdpt", "mis, bsdf, hemisphere, area"});
     refused({"--against", "metal"}, {"--against metal", "cpu, vulkan, oracle"});
     refused({"--against", "cpu/bdpt"}, {"bdpt"});
     check_refusal(run_diptych(folder, {"verify", scene, "--backends", "cpu,metal"}), 2,

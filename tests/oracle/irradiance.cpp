@@ -33,7 +33,7 @@ std::vector<dvec3> square_points(double side, double y) {
 void check_irradiance(const Scene& scene, const dvec3& irradiance, double half_width_by_chance = 0.009,
                       std::uint64_t spp = 25000, double half_width_by_area = 0.003) {
     for (const oracle::Mode mode : all_modes()) {
-        const double half_width = mode == oracle::Mode::area ? half_width_by_area : half_width_by_chance;
+        const double half_width = mode == oracle::Mode::area || mode == oracle::Mode::mis ? half_width_by_area : half_width_by_chance;
         INFO(name_of(mode));
         OracleSettings settings = small_settings(4, 4, 1);
         settings.mode = mode;

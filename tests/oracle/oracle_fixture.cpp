@@ -128,12 +128,18 @@ double polygon_irradiance(const std::vector<dvec3>& polygon, const dvec3& point,
 }
 
 const std::vector<oracle::Mode>& all_modes() {
-    static const std::vector<oracle::Mode> modes = {oracle::Mode::bsdf, oracle::Mode::hemisphere, oracle::Mode::area};
+    static const std::vector<oracle::Mode> modes = {oracle::Mode::mis, oracle::Mode::bsdf, oracle::Mode::hemisphere,
+                                                    oracle::Mode::area};
     return modes;
 }
 
 const char* name_of(oracle::Mode mode) {
-    return mode == oracle::Mode::bsdf ? "bsdf" : mode == oracle::Mode::hemisphere ? "hemisphere" : "area";
+    switch (mode) {
+    case oracle::Mode::mis: return "mis";
+    case oracle::Mode::bsdf: return "bsdf";
+    case oracle::Mode::hemisphere: return "hemisphere";
+    default: return "area";
+    }
 }
 
 }  // namespace diptych::tests
