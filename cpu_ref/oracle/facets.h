@@ -27,8 +27,8 @@ dvec3 evaluate(const Facets& facets, const Bsdf& bsdf, const dvec3& o, const dve
 /// Draws a path over the facets; `only_mirror` leaves out what `evaluate` has.
 Scattered sample(const Facets& facets, const Bsdf& bsdf, const dvec3& o, bool only_mirror, Random& random);
 
-/// Of the draws of `sample` that leave toward i, a steradian, over all paths of the facets; what mirrors of the material draw
-/// left out.
+/// Of the draws of `sample` that leave toward i, a steradian, over all paths of the facets; what mirrors of the
+/// material draw left out.
 double density(const Facets& facets, const Bsdf& bsdf, const dvec3& o, const dvec3& i);
 
 }  // namespace diptych::oracle

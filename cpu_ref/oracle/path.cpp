@@ -48,7 +48,7 @@ private:
     std::span<dvec3> by_depth_;
     PathResult result_;
     dvec3 throughput_{1};
-    bool unrivalled_ = true;  // the ray came from the camera or off a mirror, so that no light sample finds what it finds
+    bool unrivalled_ = true;  // the ray came from the camera or off a mirror: no light sample finds what it finds
     double density_ = 0;      // else, in mode mis: of its direction, a steradian
 };
 

@@ -15,12 +15,14 @@ enum class Mode {
     bsdf,        // directions drawn from the material; emission where they lead
     hemisphere,  // uniform directions over the hemisphere; mirrors apart
     area,        // as bsdf, but emissive surfaces by uniform points over their area, save behind a perfect mirror
-    mis,         // as bsdf, and at each vertex one point on an emitter by power and one direction by the sky's map, each weighted
-                 // against the material's directions by the balance heuristic (Veach 1997, eq. 9.8)
+    mis,         // as bsdf, and at each vertex one point on an emitter by power and one direction by the sky's map,
+                 // weighted against the material's directions by the balance heuristic (Veach 1997, eq. 9.8)
 };
 
 /// How the mode draws points on emitters.
-inline EmitterChoice emitter_choice(Mode mode) { return mode == Mode::mis ? EmitterChoice::power : EmitterChoice::area; }
+inline EmitterChoice emitter_choice(Mode mode) {
+    return mode == Mode::mis ? EmitterChoice::power : EmitterChoice::area;
+}
 
 /// What every path needs; the referred outlive it.
 struct Paths {

@@ -10,7 +10,8 @@ namespace diptych::oracle {
 
 namespace {
 
-/// Where the map shows what lies in this direction, (u, v). The map turns by the rotation, so that is looked up turned back.
+/// Where the map shows what lies in this direction, (u, v). The map turns by the rotation, so that is looked up turned
+/// back.
 dvec2 map_point(const Environment& environment, const dvec3& direction) {
     const double c = std::cos(environment.rotation);
     const double s = std::sin(environment.rotation);
@@ -84,7 +85,8 @@ SkyMap::SkyMap(const Environment& environment) : environment_(environment) {
 SkyMap::Direction SkyMap::sample(Random& random) const {
     const double place = random.uniform() * weight_up_to_.back();
     const auto found = std::upper_bound(weight_up_to_.begin(), weight_up_to_.end(), place);
-    const auto index = int(std::min<std::ptrdiff_t>(found - weight_up_to_.begin(), std::ptrdiff_t(weight_up_to_.size()) - 1));
+    const auto index =
+        int(std::min<std::ptrdiff_t>(found - weight_up_to_.begin(), std::ptrdiff_t(weight_up_to_.size()) - 1));
     const double across = index % environment_.width + 0.5 + random.uniform() - random.uniform();
     // What the tent has beyond a pole comes back: so held texels add up as they do in the radiance.
     double down = std::abs(double(index / environment_.width) + 0.5 + random.uniform() - random.uniform());

@@ -16,8 +16,9 @@ class Random;
 /// Radiance that arrives along a ray of this direction from infinity.
 dvec3 environment_radiance(const Environment& environment, const dvec3& direction);
 
-/// Directions by an environment map's radiance: a texel by the sum of its channels times the sine of its polar angle, then a point of
-/// the tent around the texel's centre, so that the density is bilinear as the radiance is, and positive wherever that is.
+/// Directions by an environment map's radiance: a texel by the sum of its channels times the sine of its polar angle,
+/// then a point of the tent around the texel's centre, so that the density is bilinear as the radiance is, and positive
+/// wherever that is.
 class SkyMap {
 public:
     /// Empty where the environment is no map, or black. The environment must outlive it.

@@ -1,6 +1,6 @@
-// What area sampling seems to lose where near mirrors see lamps: light in samples so rare and so bright that no run meets
-// them. How rare and how bright is known without waiting for them: a contribution that any estimator finds with value y would have been
-// x from a point drawn by area, so that it stands for y / x such points (a change of measure).
+// What area sampling seems to lose where near mirrors see lamps: light in samples so rare and so bright that no run
+// meets them. How rare and how bright is known without waiting for them: a contribution that any estimator finds with
+// value y would have been x from a point drawn by area, so that it stands for y / x such points (a change of measure).
 #include <tbb/parallel_for.h>
 
 #include <cmath>
@@ -40,8 +40,8 @@ struct Room {
     SkyMap sky;
 
     explicit Room(const Scene& scene)
-        : world(make_world(scene)), traversal(world), by_area(world, EmitterChoice::area), by_power(world, EmitterChoice::power),
-          sky(scene.environment) {}
+        : world(make_world(scene)), traversal(world), by_area(world, EmitterChoice::area),
+          by_power(world, EmitterChoice::power), sky(scene.environment) {}
 };
 
 /// A path whose lamps are found by points by power and by the material, under the balance heuristic, written anew.
@@ -71,7 +71,8 @@ void follow(const Room& room, Ray ray, Random& random, std::vector<Contribution>
         const dvec3 direction = normalize(to);
         const double geometry = std::abs(dot(direction, lamp.front)) / dot(to, to);
         const double light = mean_of(throughput * evaluate(surface.facets, surface.bsdf, surface.o, direction) *
-                                     emitted(room.world, lamp, point.barycentrics, -direction)) * geometry;
+                                     emitted(room.world, lamp, point.barycentrics, -direction)) *
+                             geometry;
         const Ray shadow{surface.position, direction, hit->triangle, point.triangle, length(to) * (1 - 1e-9)};
         if (light > 0 && point.triangle != hit->triangle && !room.traversal.any(shadow)) {
             const double both = point.density + density(surface.facets, surface.bsdf, surface.o, direction) * geometry;
@@ -135,7 +136,8 @@ struct Split {
 
 /// Averages a sample.
 template <typename Follow>
-std::vector<Split> survey(const Room& room, std::vector<Split> splits, int spp, std::uint64_t seed, Follow follow_path) {
+std::vector<Split> survey(const Room& room, std::vector<Split> splits, int spp, std::uint64_t seed,
+                          Follow follow_path) {
     const std::vector<Split> fresh = splits;
     std::mutex mutex;
     tbb::parallel_for(0, side, [&](int y) {
@@ -147,8 +149,8 @@ std::vector<Split> survey(const Room& room, std::vector<Split> splits, int spp, 
                 found.clear();
                 const double film_x = (x + random.uniform()) / side;
                 const double film_y = (y + random.uniform()) / side;
-                follow_path(room, camera_ray(room.world, room.world.scene->cameras[0], 1, film_x, film_y, random), random,
-                            found);
+                follow_path(room, camera_ray(room.world, room.world.scene->cameras[0], 1, film_x, film_y, random),
+                            random, found);
                 for (Split& split : own) {
                     split.add(found);
                 }
@@ -192,7 +194,8 @@ TEST_CASE("what area sampling lacks on veach-mis lies in samples too rare to mee
     const std::vector<Split> known = survey(room, splits, spp, 1, follow);
     const std::vector<Split> area = survey(room, splits, spp, 2, follow_by_area);
     if (std::getenv("DIPTYCH_TABLE") != nullptr) {
-        std::printf("| threshold / image mean | %% of the light above | of it after one bounce | points by area above, in 1e9 samples | "
+        std::printf("| threshold / image mean | %% of the light above | of it after one bounce | points by area above, "
+                    "in 1e9 samples | "
                     "by area below: difference, %% of the image | z |\n");
     }
     double unseen = 0;  // what lies beyond the largest threshold that this run expects to pass less than once
@@ -206,8 +209,8 @@ TEST_CASE("what area sampling lacks on veach-mis lies in samples too rare to mee
                         100 * k.above_once / image, 1e9 * k.points, 100 * (a.below - k.below) / image,
                         196 * error / image, z);
         }
-        INFO("threshold " << k.threshold / image << " images: by area " << a.below << ", known " << k.below << ", z " << z
-                          << ", points above " << n * k.points);
+        INFO("threshold " << k.threshold / image << " images: by area " << a.below << ", known " << k.below << ", z "
+                          << z << ", points above " << n * k.points);
         if (n * k.points > 100) {  // else the error is not normal, or not seen
             CHECK(std::abs(z) < z_limit);
             CHECK(1.96 * error < 0.06 * image);
@@ -215,7 +218,8 @@ TEST_CASE("what area sampling lacks on veach-mis lies in samples too rare to mee
         unseen = n * k.points < 1 ? glm::max(unseen, k.above / image) : unseen;
     }
     if (std::getenv("DIPTYCH_TABLE") != nullptr) {
-        std::printf("standard deviation of a sample by area, in means of the image: known %.0f, as it shows itself in %.2g samples "
+        std::printf("standard deviation of a sample by area, in means of the image: known %.0f, as it shows itself in "
+                    "%.2g samples "
                     "%.0f\n",
                     std::sqrt(known[0].squares) / image, n, std::sqrt(area[0].squares) / image);
     }

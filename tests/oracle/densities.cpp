@@ -40,7 +40,8 @@ std::vector<double> integrate(Density density) {
     return sums;
 }
 
-/// Chi-square of the counts, cells that expect fewer than five left out, within z_limit standard deviations of its mean.
+/// Chi-square of the counts, cells that expect fewer than five left out, within z_limit standard deviations of its
+/// mean.
 void check_counts(const std::vector<double>& counts, const std::vector<double>& probabilities, double draws) {
     double chi_square = 0;
     double used = 0;
@@ -104,12 +105,14 @@ TEST_CASE("an emitter that is hit has the density it is drawn with", "[oracle]")
     dim.base_color = glm::vec4(1);
     Material unlit = lambertian({0.5F, 1, 0.25F});
     unlit.unlit = true;
-    add_object(scene, "floor", {quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, add_material(scene, lambertian(vec3(1))))});
+    add_object(scene, "floor",
+               {quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, add_material(scene, lambertian(vec3(1))))});
     add_object(scene, "dim", {quad({0, 0, 1}, {4, 0, 1}, {4, 1, 1}, {0, 2, 1}, add_material(scene, dim))});
     add_object(scene, "unlit", {quad({0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 1, 2}, add_material(scene, unlit))},
                translation(3, 0, 0));
-    add_object(scene, "bright", {quad({0, 0, 3}, {0.1F, 0, 3}, {0.1F, 0.1F, 3}, {0, 0.1F, 3},
-                                      add_material(scene, make_emitter("bright", {100, 200, 50})))});
+    add_object(scene, "bright",
+               {quad({0, 0, 3}, {0.1F, 0, 3}, {0.1F, 0.1F, 3}, {0, 0.1F, 3},
+                     add_material(scene, make_emitter("bright", {100, 200, 50})))});
     const World world = make_world(scene);
     for (const EmitterChoice choice : {EmitterChoice::area, EmitterChoice::power}) {
         const Emitters emitters(world, choice);
