@@ -33,6 +33,7 @@ struct Moments {
 Matrix3 mean_covariance(const Moments& moments, std::size_t count, std::size_t rank, double lost = 1) {
     const double n = static_cast<double>(count);
     Matrix3 covariance{};
+    rank = std::min<std::size_t>(rank, 3);  // it is never larger, which GCC 14 cannot see
     for (std::size_t i = 0; i < rank; ++i) {
         for (std::size_t j = i; j < rank; ++j) {
             const double value = (moments.products[i][j] - moments.sum[i] * moments.sum[j] / n) / (n - lost) / n;
