@@ -18,5 +18,6 @@ void add_generate(CLI::App& app, Run& run);
 void add_bench(CLI::App& app, Run& run);
 void add_verify(CLI::App& app, Run& run);
 void add_replay(CLI::App& app, Run& run);
+void add_converge(CLI::App& app, Run& run);
 
 }  // namespace diptych::app

@@ -46,6 +46,7 @@ int run_program(int argc, char** argv) {
     add_bench(app, run);
     add_verify(app, run);
     add_replay(app, run);
+    add_converge(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {

@@ -10,8 +10,6 @@
 
 namespace diptych {
 
-namespace {
-
 std::string shell_quoted(const std::string& word) {
     const auto plain = [](unsigned char c) {
         return std::isalnum(c) != 0 || std::string("-_./,:+=@%").find(static_cast<char>(c)) != std::string::npos;
@@ -25,6 +23,8 @@ std::string shell_quoted(const std::string& word) {
     }
     return quoted + "'";
 }
+
+namespace {
 
 const char* yes_or_no(bool value) {
     return value ? "yes" : "no";

@@ -22,6 +22,9 @@ struct RenderOutcome {
     std::uint64_t nonfinite = 0;
 };
 
+/// As one word for a shell.
+std::string shell_quoted(const std::string& word);
+
 /// The command line that repeats a render of `spp` samples to the bit: every setting that matters, shell-quoted, files
 /// as given.
 std::string repeat_command(const RenderRequest& request, std::uint32_t spp);

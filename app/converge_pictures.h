@@ -1,0 +1,21 @@
+// What a method's picture looks like after a given time.
+#pragma once
+
+#include <atomic>
+
+#include "converge_reference.h"
+#include "converge_runner.h"
+#include "converge_state.h"
+
+namespace diptych::app {
+
+/// The picture of a method after about so many seconds, to the nearest whole sample, by the speed of its runs: NAME.exr, NAME.png and
+/// NAME-error.png under pictures/ in the folder, and an event that says so. Nothing to do where there is one for that time. False where
+/// `cancel` came in between.
+bool make_picture(MethodRunner& runner, double seconds, const Reference& reference, ConvergeState& state,
+                  const std::atomic<bool>& cancel);
+
+/// The reference's reference.png beside them.
+void write_reference_picture(const Reference& reference, const ConvergeState& state);
+
+}  // namespace diptych::app
