@@ -277,7 +277,7 @@ int run_converge(ConvergeOptions options) {
 std::string typed(const CLI::App& command) {
     std::string text = "diptych " + command.get_name();
     for (const CLI::Option* option : command.get_options()) {
-        if (option->count() == 0) {
+        if (option->count() == 0 || option->get_name() == "--json") {
             continue;
         }
         if (!option->get_positional()) {

@@ -63,7 +63,7 @@ Method parse_method(const char* option, const std::string& text, const RenderReq
     }
     try {
         if (oracle) {
-            method.request.oracle_mode = parts.size() > 1 ? parts[1] : "bsdf";
+            method.request.oracle_mode = parts.size() > 1 ? parts[1] : RenderRequest{}.oracle_mode;
             oracle_mode_from_name(method.request.oracle_mode);
             method.request.settings.integrator = Integrator::path;
         } else {
@@ -170,17 +170,17 @@ Method plan_reference(const ConvergeOptions& options, const std::vector<Method>&
         if (std::none_of(methods.begin(), methods.end(), uses)) {
             continue;
         }
-        const std::string name = std::string(backend) + (std::string(backend) == "oracle" ? ":bsdf" : ":path");
+        const std::string name = std::string(backend) == "oracle" ? backend : std::string(backend) + ":path";
         first = first.empty() ? name : first;
         const bool taken = std::any_of(methods.begin(), methods.end(), [&](const Method& method) {
-            return uses(method) && (method.request.backend == "oracle" ? method.request.oracle_mode == "bsdf"
+            return uses(method) && (method.request.backend == "oracle" ? method.request.oracle_mode == RenderRequest{}.oracle_mode
                                                                        : method.request.settings.integrator == Integrator::path);
         });
         if (!taken) {
             return parse_method("--reference", name, base);
         }
     }
-    if (first == "oracle:bsdf") {
+    if (first == "oracle") {
         return parse_method("--reference", "cpu:path", base);
     }
     Method method = parse_method("--reference", first, base);

@@ -91,6 +91,9 @@ Reference reference_of(LayeredImage image, std::string method) {
         const float error = image.standard_error->data[i];
         reference.variance[i] = std::isfinite(error) ? error * error : 0;
     }
+    for (const float value : image.color.data) {
+        reference.weights.push_back(1 / (value * value + 1e-2F));
+    }
     const auto entry = [&](const char* name) {
         const auto found = image.metadata.find(name);
         return found == image.metadata.end() ? std::string() : found->second;
@@ -107,19 +110,20 @@ ReferenceNoise noise_of(const Reference& reference) {
     ReferenceNoise noise;
     const std::vector<float>& color = reference.image.color.data;
     const double values = static_cast<double>(color.size()), pixels = values / 3;
-    double fourth = 0;
     for (std::size_t i = 0; i < color.size(); i += 3) {
-        double pixel = 0;
+        double pixel = 0, relative = 0;
         for (std::size_t channel = i; channel < i + 3; ++channel) {
-            const double variance = reference.variance[channel], value = color[channel];
-            pixel += variance / 3;
-            noise.relmse += variance / (value * value + 1e-2) / values;
-            noise.mean += value / values;
+            pixel += reference.variance[channel] / 3.0;
+            relative += reference.variance[channel] * reference.weights[channel] / 3.0;
+            noise.mean += color[channel] / values;
         }
         noise.mse += pixel / pixels;
-        fourth += 2 * pixel * pixel;
+        noise.relmse += relative / pixels;
+        noise.mse_error += 2 * pixel * pixel;
+        noise.relmse_error += 2 * relative * relative;
     }
-    noise.mse_error = std::sqrt(fourth) / pixels;
+    noise.mse_error = std::sqrt(noise.mse_error) / pixels;
+    noise.relmse_error = std::sqrt(noise.relmse_error) / pixels;
     return noise;
 }
 

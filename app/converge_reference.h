@@ -21,6 +21,7 @@ inline constexpr std::uint32_t reference_blocks = 16;
 struct Reference {
     LayeredImage image;           // with standard errors, where they are known
     std::vector<float> variance;  // of every value: standard error squared; zeros where unknown
+    std::vector<float> weights;   // 1 / (r² + 1e-2)
     bool variance_known = false;
     std::string method;           // a file, or what rendered it
     std::uint32_t spp = 0;        // 0: unknown
@@ -34,6 +35,7 @@ struct ReferenceNoise {
     double mse = 0;
     double relmse = 0;
     double mse_error = 0;
+    double relmse_error = 0;
     double mean = 0;  // of the reference itself, over pixels and channels
 };
 ReferenceNoise noise_of(const Reference& reference);

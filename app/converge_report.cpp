@@ -19,6 +19,14 @@ Json to_json(const Interval& interval) {
     return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
 }
 
+Json to_json(const BiasSquared& bias) {
+    return {{"value", bias.value}, {"standard_error", bias.standard_error}, {"p", bias.p}, {"heavy", bias.heavy}};
+}
+
+Json to_json(const BiasFit& fit) {
+    return {{"bias_squared", to_json(fit.bias_squared)}, {"noise", fit.noise}, {"standard_error", fit.standard_error}, {"p", fit.p}};
+}
+
 Json to_json(const CheckpointSummary& point) {
     Json json;
     json["spp"] = point.spp;
@@ -31,10 +39,8 @@ Json to_json(const CheckpointSummary& point) {
     json["mse_net"] = point.mse_net;
     json["relmse_net"] = point.relmse_net;
     json["efficiency"] = point.efficiency;
-    json["bias_squared"] = {{"value", point.bias.value},
-                            {"standard_error", point.bias.standard_error},
-                            {"p", point.bias.p},
-                            {"heavy", point.bias.heavy}};
+    json["bias_squared"] = to_json(point.bias);
+    json["relative_bias_squared"] = to_json(point.relative_bias);
     json["nonfinite"] = point.nonfinite;
     return json;
 }
@@ -65,11 +71,9 @@ Json to_json(const MethodSummary& summary) {
     json["setup"] = summary.setup;
     json["slope_mse"] = to_json(summary.slope_mse);
     json["slope_relmse"] = to_json(summary.slope_relmse);
-    json["fit"] = {{"bias_squared", to_json(summary.fit.bias_squared)},
-                   {"noise", summary.fit.noise},
-                   {"standard_error", summary.fit.standard_error},
-                   {"p", summary.fit.p},
-                   {"adjusted_p", summary.fit_p}};
+    json["fit"] = to_json(summary.fit);
+    json["fit_relmse"] = to_json(summary.fit_relmse);
+    json["fit_relmse"]["adjusted_p"] = summary.fit_p;
     json["bias"] = {{"adjusted_p", summary.bias_p}, {"significant", summary.bias_p < bias_alpha}, {"text", summary.bias_text}};
     json["time_to_target"] = {{"kind", name_of(summary.to_target.kind)}, {"device_seconds", summary.to_target.seconds}};
     json["picture"] = summary.picture;
@@ -107,6 +111,7 @@ nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Sum
                          {"mse", summary.noise.mse},
                          {"mse_error", summary.noise.mse_error},
                          {"relmse", summary.noise.relmse},
+                         {"relmse_error", summary.noise.relmse_error},
                          {"mean", summary.noise.mean}};
     json["target_relmse"] = summary.target_relmse;
     json["equal_seconds"] = summary.equal_seconds;
@@ -119,14 +124,15 @@ nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Sum
 
 std::string summary_to_csv(const Summary& summary) {
     std::string text = "method,runs,spp,device_seconds,wall_seconds,mse,mse_low,mse_high,relmse,relmse_low,relmse_high,relmse_trimmed,"
-                       "trimmed_energy,mse_net,relmse_net,efficiency,bias_squared,bias_squared_error,bias_p,heavy,nonfinite\n";
+                       "trimmed_energy,mse_net,relmse_net,efficiency,bias_squared,bias_squared_error,relative_bias_squared,relative_bias_squared_error,relative_bias_p,heavy,nonfinite\n";
     for (const MethodSummary& method : summary.methods) {
         for (const CheckpointSummary& p : method.checkpoints) {
             text += fmt::format("{},{},{}", method.method->name, method.runs, p.spp);
             for (const double value :
                  {p.device_seconds, p.wall_seconds, p.mse.value, p.mse.low, p.mse.high, p.relmse.value, p.relmse.low, p.relmse.high,
                   p.relmse_trimmed.value, p.trimmed_energy, p.mse_net, p.relmse_net, p.efficiency, p.bias.value,
-                  p.bias.standard_error, p.bias.p, p.bias.heavy}) {
+                  p.bias.standard_error, p.relative_bias.value, p.relative_bias.standard_error, p.relative_bias.p,
+                  p.relative_bias.heavy}) {
                 text += std::isfinite(value) ? fmt::format(",{:.9g}", value) : ",";
             }
             text += fmt::format(",{}\n", p.nonfinite);

@@ -24,20 +24,21 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t sums_magic = 0x31535444;  // "DTS1"
 
-Json to_json(const ErrorRow& row) {
-    return {{"kind", "error"},
-            {"method", row.method},
-            {"run", row.run},
-            {"seed", row.seed},
-            {"spp", row.spp},
-            {"device_seconds", row.device_seconds},
-            {"wall_seconds", row.wall_seconds},
-            {"mse", row.mse},
-            {"relmse", row.relmse},
-            {"relmse_trimmed", row.relmse_trimmed},
-            {"trimmed_energy", row.trimmed_energy},
-            {"nonfinite", row.nonfinite},
-            {"rays", row.rays}};
+Json run_to_json(const std::vector<ErrorRow>& run) {
+    const ErrorRow& first = run.front();
+    Json json = {{"kind", "run"}, {"method", first.method}, {"run", first.run}, {"seed", first.seed}, {"checkpoints", Json::array()}};
+    for (const ErrorRow& row : run) {
+        json["checkpoints"].push_back({{"spp", row.spp},
+                                       {"device_seconds", row.device_seconds},
+                                       {"wall_seconds", row.wall_seconds},
+                                       {"mse", row.mse},
+                                       {"relmse", row.relmse},
+                                       {"relmse_trimmed", row.relmse_trimmed},
+                                       {"trimmed_energy", row.trimmed_energy},
+                                       {"nonfinite", row.nonfinite},
+                                       {"rays", row.rays}});
+    }
+    return json;
 }
 
 double number(const Json& json, const char* key) {
@@ -45,21 +46,23 @@ double number(const Json& json, const char* key) {
     return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
-ErrorRow row_from_json(const Json& json) {
-    ErrorRow row;
-    row.method = json.at("method");
-    row.run = json.at("run");
-    row.seed = json.at("seed");
-    row.spp = json.at("spp");
-    row.device_seconds = number(json, "device_seconds");
-    row.wall_seconds = number(json, "wall_seconds");
-    row.mse = number(json, "mse");
-    row.relmse = number(json, "relmse");
-    row.relmse_trimmed = number(json, "relmse_trimmed");
-    row.trimmed_energy = number(json, "trimmed_energy");
-    row.nonfinite = json.at("nonfinite");
-    row.rays = json.at("rays");
-    return row;
+void add_run(std::vector<ErrorRow>& rows, const Json& run) {
+    for (const Json& json : run.at("checkpoints")) {
+        ErrorRow row;
+        row.method = run.at("method");
+        row.run = run.at("run");
+        row.seed = run.at("seed");
+        row.spp = json.at("spp");
+        row.device_seconds = number(json, "device_seconds");
+        row.wall_seconds = number(json, "wall_seconds");
+        row.mse = number(json, "mse");
+        row.relmse = number(json, "relmse");
+        row.relmse_trimmed = number(json, "relmse_trimmed");
+        row.trimmed_energy = number(json, "trimmed_energy");
+        row.nonfinite = json.at("nonfinite");
+        row.rays = json.at("rays");
+        rows.push_back(row);
+    }
 }
 
 template <class T>
@@ -99,8 +102,8 @@ ConvergeState::ConvergeState(const std::string& folder) : folder_(folder) {
         if (event.is_discarded()) {
             throw Error(fmt::format("{}: has a line that is not JSON; give another -o", name));
         }
-        if (event.value("kind", "") == "error") {
-            rows_.push_back(row_from_json(event));
+        if (event.value("kind", "") == "run") {
+            add_run(rows_, event);
         } else {
             events_.push_back(event);
         }
@@ -134,11 +137,7 @@ void ConvergeState::append(const Json& event) {
 }
 
 void ConvergeState::append(const std::vector<ErrorRow>& run) {
-    std::string lines;
-    for (const ErrorRow& row : run) {
-        lines += to_json(row).dump() + "\n";
-    }
-    append_text(lines);
+    append_text(run_to_json(run).dump() + "\n");
     rows_.insert(rows_.end(), run.begin(), run.end());
     write_csv();
 }

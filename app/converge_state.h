@@ -11,7 +11,7 @@
 
 namespace diptych::app {
 
-/// One render's errors against the reference once it had so many samples a pixel: a line of results.jsonl and of results.csv.
+/// One render's errors against the reference once it had so many samples a pixel: a line of results.csv.
 struct ErrorRow {
     std::string method;
     std::uint32_t run = 0;
@@ -28,7 +28,7 @@ struct ErrorRow {
 };
 
 /// results.jsonl holds a line for each event: "setup" (what building a method took), "limit" (how many samples fit the time),
-/// "reference", "error" (an ErrorRow), "picture". Lines are only ever appended, a run's all at once.
+/// "reference", "run" (the ErrorRows of one run), "picture". Lines are only ever appended.
 class ConvergeState {
 public:
     /// Reads what is there; a last line that was cut off is dropped. Throws Error.

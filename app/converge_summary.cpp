@@ -60,19 +60,22 @@ ErrorTable table_of(const std::vector<std::vector<const ErrorRow*>>& by_count, c
 void fit(MethodSummary& method, const std::vector<std::vector<const ErrorRow*>>& by_count, const ReferenceNoise& noise) {
     std::vector<std::size_t> kept;
     std::vector<double> samples;
-    std::vector<bool> above_noise;
+    std::vector<bool> above_noise, relmse_above_noise;
     for (std::size_t i = 0; i < method.checkpoints.size(); ++i) {
         const CheckpointSummary& point = method.checkpoints[i];
         if (!method.method->chained() || point.spp >= settled_frames) {
             kept.push_back(i);
             samples.push_back(point.spp);
             above_noise.push_back(point.mse_net > least_errors_above_noise * noise.mse_error);
+            relmse_above_noise.push_back(point.relmse_net > least_errors_above_noise * noise.relmse_error);
         }
     }
     const ErrorTable mse = table_of(by_count, kept, &ErrorRow::mse, noise.mse);
     method.slope_mse = log_slope(samples, mse, above_noise);
-    method.slope_relmse = log_slope(samples, table_of(by_count, kept, &ErrorRow::relmse, noise.relmse), above_noise);
+    const ErrorTable relmse = table_of(by_count, kept, &ErrorRow::relmse, noise.relmse);
+    method.slope_relmse = log_slope(samples, relmse, relmse_above_noise);
     method.fit = fit_bias(samples, mse, noise.mse_error);
+    method.fit_relmse = fit_bias(samples, relmse, noise.relmse_error);
 }
 
 MethodSummary summarize_method(const Method& method, const Reference& reference, const ReferenceNoise& noise,
@@ -94,8 +97,10 @@ MethodSummary summarize_method(const Method& method, const Reference& reference,
         by_count.push_back(rows);
         summary.checkpoints.push_back(summarize_checkpoint(spp, rows, noise));
         if (const auto found = sums.find(spp); found != sums.end()) {
-            summary.checkpoints.back().bias = bias_squared(found->second, reference.variance, reference.image.color.width, 3,
-                                                           method.chained() ? reuse_block : independent_block);
+            const int width = reference.image.color.width, block = method.chained() ? reuse_block : independent_block;
+            CheckpointSummary& point = summary.checkpoints.back();
+            point.bias = bias_squared(found->second, reference.variance, {}, width, 3, block);
+            point.relative_bias = bias_squared(found->second, reference.variance, reference.weights, width, 3, block);
         }
     }
     fit(summary, by_count, noise);
@@ -122,15 +127,16 @@ bool biased_by_choice(const Method& method) {
             settings.resampling.visibility == ResamplingVisibility::biased_final);
 }
 
-std::string bias_text(const MethodSummary& summary, const Reference& reference, double mean) {
-    const BiasSquared& bias = summary.checkpoints.back().bias;
+std::string bias_text(const MethodSummary& summary, const Reference& reference) {
+    const BiasSquared& bias = summary.checkpoints.back().relative_bias;
     if (std::isnan(summary.bias_p)) {
         return "not tested: too few runs or pixels";
     }
     if (!(summary.bias_p < bias_alpha)) {
-        return fmt::format("none seen; below {:.2g} % of the mean", 100 * std::sqrt(std::max(bias.value, 0.0) + 1.645 * bias.standard_error) / mean);
+        return fmt::format("none seen; below {:.2g} % of a pixel",
+                           100 * std::sqrt(std::max(bias.value, 0.0) + 1.645 * bias.standard_error));
     }
-    const std::string size = fmt::format("{:.2g} % of the mean", 100 * std::sqrt(std::max(0.0, bias.value)) / mean);
+    const std::string size = fmt::format("{:.2g} % of a pixel", 100 * std::sqrt(std::max(0.0, bias.value)));
     if (biased_by_choice(*summary.method)) {
         return size + ": biased by choice";
     }
@@ -157,8 +163,8 @@ Summary summarize_results(const ConvergeOptions& options, const std::vector<Meth
         }
         summary.methods.push_back(summarize_method(method, reference, summary.noise, state));
         const MethodSummary& added = summary.methods.back();
-        fit_p.push_back(method.chained() ? std::nan("") : added.fit.p);  // its model is of independent samples
-        bias_p.push_back(added.checkpoints.back().bias.p);
+        fit_p.push_back(method.chained() ? std::nan("") : added.fit_relmse.p);  // its model is of independent samples
+        bias_p.push_back(added.checkpoints.back().relative_bias.p);
         last_errors.push_back(added.checkpoints.back().relmse_net);
         last_times.push_back(added.checkpoints.back().device_seconds);
     }
@@ -173,7 +179,7 @@ Summary summarize_results(const ConvergeOptions& options, const std::vector<Meth
         MethodSummary& method = summary.methods[i];
         method.fit_p = fit_p[i];
         method.bias_p = bias_p[i];
-        method.bias_text = bias_text(method, reference, summary.noise.mean);
+        method.bias_text = bias_text(method, reference);
         std::vector<double> seconds, errors;
         for (const CheckpointSummary& point : method.checkpoints) {
             seconds.push_back(point.device_seconds);

@@ -24,7 +24,8 @@ struct CheckpointSummary {
     double mse_net = 0;  // without the reference's noise
     double relmse_net = 0;
     double efficiency = 0;  // 1 / (mse_net device_seconds)
-    BiasSquared bias;
+    BiasSquared bias;           // of all values alike
+    BiasSquared relative_bias;  // weighted by 1 / (r² + 1e-2), as relMSE is: what the verdict goes by
     std::uint64_t nonfinite = 0;
 };
 
@@ -35,8 +36,9 @@ struct MethodSummary {
     Interval slope_mse;
     Interval slope_relmse;
     BiasFit fit;              // of the MSE without the reference's noise
-    double fit_p = 0;         // p of bias², corrected for the number of methods (Holm)
-    double bias_p = 0;        // p of the last checkpoint's bias², likewise
+    BiasFit fit_relmse;       // and of the relMSE
+    double fit_p = 0;         // p of fit_relmse's bias², corrected for the number of methods (Holm)
+    double bias_p = 0;        // p of the last checkpoint's relative bias², likewise
     std::string bias_text;    // what to make of it
     TargetTime to_target;
     nlohmann::ordered_json setup;    // the state's events

@@ -24,7 +24,7 @@ std::string progress_text(const Progress& progress, std::uint32_t target_spp) {
     if (progress.rays_per_second > 0) {
         text += fmt::format("  {}ray/s", with_prefix(progress.rays_per_second));
     }
-    text += "  ETA " + clock_text(progress.eta_seconds);
+    text += "  ETA " + (std::isfinite(progress.eta_seconds) ? clock_text(progress.eta_seconds) : "?");
     if (progress.relmse) {
         text += fmt::format("  relMSE {:.1e}", *progress.relmse);
     }

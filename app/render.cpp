@@ -10,6 +10,7 @@
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
 #include "interrupt.h"
+#include "render/settings_names.h"
 #include "render_picture.h"
 #include "render_sequence.h"
 #include "report.h"
@@ -23,6 +24,7 @@ namespace {
 constexpr const char* examples = R"(Examples:
   diptych render scene.gltf -o picture.exr
   diptych render scene.glb -o picture.png --backend vulkan --time 10 --size 1920x1080 --tonemap aces
+  diptych render scene.gltf -o clean.exr --target-error 1e-3 --time 600
   diptych render scene.gltf -o truth.exr --backend oracle --spp 4096
   diptych render scene.gltf -o picture.exr --env studio.hdr --env-rotate 90 --camera Front --spp 1024
   diptych render scene.glb -o walk.####.exr --frames 96 --fps 24 --camera moving
@@ -34,6 +36,7 @@ in the attribute diptych:command. PNG is tone mapped; HDR is linear. Ctrl-C save
 
 struct Options {
     RenderArguments arguments;
+    CLI::Option* spp_option = nullptr;
     CLI::Option* layers_option = nullptr;
     CLI::Option* sequence_option = nullptr;
     CLI::Option* fps_option = nullptr;
@@ -51,8 +54,12 @@ void check_options(Options& options) {
     resolve_oracle_mode(options.arguments);
     refuse_idle_resampling_options(options.arguments);
     tonemap_from_name(request.tonemap);
-    if (request.seconds > 0) {
+    if (request.seconds > 0 || (request.target_error > 0 && options.spp_option->count() == 0)) {
         request.spp = 0;
+    }
+    if (request.target_error > 0 && request.backend != "oracle" && resamples(settings.integrator)) {
+        throw Error(fmt::format("--target-error: the frames of {} are resampled together, so their spread does not tell the error",
+                                name_of(settings.integrator)));
     }
     settings.sample_count = options.sample_count > 0 ? options.sample_count : request.spp;
     if (settings.sampler == SamplerKind::hammersley && settings.sample_count == 0) {
@@ -68,7 +75,10 @@ void check_options(Options& options) {
     if (!exr && options.layers && options.layers_option->count() > 0) {
         throw Error(fmt::format("--layers: {} cannot hold them, only .exr can", request.output));
     }
-    settings.standard_error = exr && options.layers;
+    if (request.target_error > 0 && exr && !options.layers) {
+        throw Error("--no-layers: --target-error keeps the standard errors, which are one of them");
+    }
+    settings.standard_error = (exr && options.layers) || request.target_error > 0;
     settings.first_hit_layers = exr && options.layers;
 }
 
@@ -109,6 +119,11 @@ void add_render(CLI::App& app, Run& run) {
     CLI::Option* spp = command->add_option("--spp", request.spp, "Samples a pixel")
                            ->check(CLI::Range(1U, 4294967295U))
                            ->capture_default_str();
+    options->spp_option = spp;
+    command
+        ->add_option("--target-error", request.target_error,
+                     "Stop where the relMSE, estimated from the spread of 16 samples or more, is below; --spp or --time are limits then")
+        ->check(positive_number());
     command->add_option("--time", request.seconds, "Render for so many seconds instead, to the nearest whole sample")
         ->check(CLI::Range(0.001, 1e9))
         ->check(finite_number())

@@ -70,6 +70,10 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
     json["samples_per_second"] = static_cast<double>(totals.samples + totals.nonfinite) / seconds;
     json["rays_per_second"] = static_cast<double>(outcome.rays) / seconds;
     json["estimated_relmse"] = relmse ? nlohmann::ordered_json(*relmse) : nlohmann::ordered_json();
+    if (request.target_error > 0) {
+        json["target_error"] = request.target_error;
+        json["target_met"] = relmse && *relmse <= request.target_error;
+    }
     if (request.frames > 0) {
         json["frame"] = request.frame;
         json["time"] = request.start;
@@ -89,6 +93,7 @@ Picture render_picture(Renderer& renderer, const RenderRequest& request, std::ui
         ProgressiveTarget target;
         target.spp = request.spp;
         target.seconds = request.seconds;
+        target.relmse = request.target_error;
         ProgressiveHooks hooks;
         hooks.progress = [&](const Progress& progress) { line.show(progress); };
         result = render_progressively(renderer, target, cancel, hooks);

@@ -29,7 +29,7 @@
     "Trimmed": { label: "relMSE without the worst 0.1 %", y: p => p.relmse_trimmed, guide: true, note: "Without the 0.1 % of the pixels that are worst, which are fireflies as a rule: what most of the picture looks like. The energy that these hold is in summary.csv; no bias is judged by this." },
     "MSE": { label: "MSE", y: p => p.mse, guide: true, note: "Mean over the runs, and its 95 % band. The dotted line is how the error of independent samples falls." },
     "Efficiency": { label: "1 / (MSE · s)", y: plain("efficiency"), note: "Constant where the error falls as 1/N. Twice as high is half the time for the same error." },
-    "Bias²": { label: "bias²", y: p => ({ value: p.bias_squared.value, low: p.bias_squared.value - 1.96 * p.bias_squared.standard_error, high: p.bias_squared.value + 1.96 * p.bias_squared.standard_error }),
+    "Bias²": { label: "relative bias²", y: p => ({ value: p.relative_bias_squared.value, low: p.relative_bias_squared.value - 1.96 * p.relative_bias_squared.standard_error, high: p.relative_bias_squared.value + 1.96 * p.relative_bias_squared.standard_error }),
                note: "An estimate whose expectation is the squared bias. Without one it scatters about 0: about half of the points are below and not drawn, and the others fall as the noise does." },
   };
   const xChoices = {
@@ -147,7 +147,7 @@
       if (e === mostEfficient) cell.className = "best";
       return e > 0 ? `${figure(100 * e / mostEfficient)} %` : "–";
     } },
-    { name: "Fit: p of b", cell: m => m.fit.adjusted_p != null ? figure(m.fit.adjusted_p) : "–" },
+    { name: "Fit: p of b", cell: m => m.fit_relmse.adjusted_p != null ? figure(m.fit_relmse.adjusted_p) : "–" },
     { name: "Bias", words: true, cell: m => m.bias.significant ? [element("span", "significant: ", "warn"), m.bias.text] : m.bias.text },
     { name: "Not finite", cell: m => last(m).nonfinite ? [element("span", String(last(m).nonfinite), "warn")] : "0" },
   ], methods);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "error.h"
 #include "render/film_statistics.h"
 
 namespace diptych {
@@ -22,7 +23,7 @@ double steady_seconds() {
 }
 
 std::uint32_t next_batch(const ProgressiveTarget& target, std::uint32_t done, double seconds, std::uint32_t last_batch,
-                         double last_seconds) {
+                         double last_seconds, std::uint64_t look_at) {
     std::uint64_t batch = 1;
     if (last_batch > 0) {
         const double sample_seconds = std::max(last_seconds / last_batch, 1e-9);
@@ -39,7 +40,7 @@ std::uint32_t next_batch(const ProgressiveTarget& target, std::uint32_t done, do
     }
     const std::uint64_t limit =
         target.spp > 0 ? target.spp : std::numeric_limits<std::uint32_t>::max() - std::uint64_t{target.first};
-    return static_cast<std::uint32_t>(std::min(batch, limit - done));
+    return static_cast<std::uint32_t>(std::min({batch, limit - done, look_at - done}));
 }
 
 std::uint32_t samples_of_every_pixel(const Film& film) {
@@ -72,6 +73,38 @@ private:
     double next_;
 };
 
+/// Looks at the film where the error may have met its target.
+class ErrorTarget {
+public:
+    explicit ErrorTarget(double relmse) : target_(relmse) {}
+
+    /// At which sample count; beyond any where there is no target.
+    std::uint64_t look_at() const { return target_ > 0 ? look_at_ : std::numeric_limits<std::uint64_t>::max(); }
+
+    bool met(const Renderer& renderer, std::uint32_t spp, Progress& progress) {
+        if (spp < look_at()) {
+            return false;
+        }
+        const std::optional<double> relmse = estimated_relmse(renderer.film());
+        if (!relmse) {
+            throw Error("the error has no estimate: no standard errors are kept");
+        }
+        progress.relmse = relmse;
+        const double wanted = std::ceil(spp * *relmse / target_);
+        needed_ = wanted;
+        look_at_ = static_cast<std::uint64_t>(std::clamp(wanted, spp + 1.0, 2.0 * spp));
+        return *relmse <= target_;
+    }
+
+    /// Samples in all, as the latest look has it.
+    double needed() const { return target_ > 0 && needed_ > 0 ? needed_ : HUGE_VAL; }
+
+private:
+    double target_;
+    double needed_ = 0;
+    std::uint64_t look_at_ = least_judged_samples;
+};
+
 }  // namespace
 
 ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarget& target,
@@ -79,12 +112,13 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
     const std::function<double()> now = hooks.now ? hooks.now : steady_seconds;
     const Film before = renderer.film();
     FilmWatch watch(now);
+    ErrorTarget error(target.relmse);
     ProgressiveResult result;
     std::uint32_t batch = 0;
     double last_seconds = 0;
     Progress progress;
     while (!cancel) {
-        batch = next_batch(target, result.spp, result.seconds, batch, last_seconds);
+        batch = next_batch(target, result.spp, result.seconds, batch, last_seconds, error.look_at());
         if (batch == 0) {
             return result;
         }
@@ -96,16 +130,21 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
             break;
         }
         result.spp += batch;
+        result.target_met = error.met(renderer, result.spp, progress);
         if (hooks.progress) {
             const double sample_seconds = std::max(result.seconds / result.spp, 1e-12);
             const double until_spp = target.spp > 0 ? (target.spp - result.spp) * sample_seconds : HUGE_VAL;
             const double until_time = target.seconds > 0 ? std::max(0.0, target.seconds - result.seconds) : HUGE_VAL;
             progress.spp = result.spp;
             progress.seconds = result.seconds;
-            progress.eta_seconds = std::min(until_spp, until_time);
+            const double until_error = std::max(0.0, (error.needed() - result.spp) * sample_seconds);
+            progress.eta_seconds = std::min({until_spp, until_time, until_error});
             progress.samples_per_second = static_cast<double>(before.pixels.size()) / sample_seconds;
             watch.look(renderer, progress);
             hooks.progress(progress);
+        }
+        if (result.target_met) {
+            return result;
         }
     }
     result.spp = samples_of_every_pixel(renderer.film()) - samples_of_every_pixel(before);

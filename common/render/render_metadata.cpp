@@ -117,7 +117,7 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
     }
     add_option(command, "--exposure", request.exposure);
     add_option(command, "--tonemap", request.tonemap);
-    command += settings.standard_error ? " --layers" : " --no-layers";
+    command += settings.first_hit_layers ? " --layers" : " --no-layers";
     command += settings.generic ? " --generic" : "";
     return command;
 }

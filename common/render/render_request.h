@@ -29,6 +29,7 @@ struct RenderRequest {
     bool validation = false;
     std::uint32_t spp = 64;  // 0 where `seconds` is the limit
     double seconds = 0;
+    double target_error = 0;  // relMSE at which to stop, as the film's standard errors have it; 0 is none
     std::uint32_t frames = 0;  // of a sequence; 0 is one picture of the scene at rest
     std::uint32_t frame = 0;   // which of them this is, for what a picture says of itself
     double fps = 24;

@@ -28,8 +28,8 @@ void DeviationSums::add(std::span<const float> deviations) {
     ++runs;
 }
 
-BiasSquared bias_squared(const DeviationSums& sums, std::span<const float> reference_variance, int width, int channels,
-                         int block) {
+BiasSquared bias_squared(const DeviationSums& sums, std::span<const float> reference_variance,
+                         std::span<const float> weights, int width, int channels, int block) {
     BiasSquared result;
     if (sums.runs < 2 || sums.sum.empty()) {
         return result;
@@ -45,7 +45,7 @@ BiasSquared bias_squared(const DeviationSums& sums, std::span<const float> refer
         const double s1 = sums.sum[i];
         const std::size_t side = static_cast<std::size_t>(block);
         totals[y / side * static_cast<std::size_t>(columns) + x / side] +=
-            (s1 * s1 - sums.squares[i]) / pairs - reference_variance[i];
+            ((s1 * s1 - sums.squares[i]) / pairs - reference_variance[i]) * (weights.empty() ? 1.0 : weights[i]);
         noisy += sums.squares[i] > 0 ? 1 : 0;
         heavy += sums.largest[i] > sums.squares[i] / 2 ? 1 : 0;
     }

@@ -27,17 +27,18 @@ struct BiasSquared {
 };
 
 /// The mean over all values of
-///     (S1² - S2) / (K (K-1)) - V,    S1 = sum D, S2 = sum D², V = `reference_variance`.
+///     w ((S1² - S2) / (K (K-1)) - V),    w = `weights` (1 where there are none), S1 = sum D, S2 = sum D², V = `reference_variance`.
 /// The first part is the mean of D_i D_j over all pairs of different runs, whose expectation is (E X - R)²; R's own noise adds its
 /// variance to that, and V takes it away again. So the expectation is the mean squared bias, whatever the noise (four renders at a time,
-/// this is mean((A1-R1)(A2-R2))).
+/// this is mean((A1-R1)(A2-R2))). The weights 1 / (R² + 1e-2) of relMSE keep the noise of a few bright values from hiding the bias of
+/// the others.
 ///
 /// The standard error comes from the means of blocks of `block` x `block` pixels, which no noise connects (`block` 1 where pixels have
 /// random numbers of their own): values of `channels` a pixel, rows of `width` pixels. NaN with fewer than eight blocks or two runs.
 ///
 /// Rare bright samples that no run has met yet make all runs too dark in one way, which looks like a bias until enough are met: `heavy`
 /// tells. Of normal noise and 16 runs it is about 1 %.
-BiasSquared bias_squared(const DeviationSums& sums, std::span<const float> reference_variance, int width, int channels,
-                         int block);
+BiasSquared bias_squared(const DeviationSums& sums, std::span<const float> reference_variance,
+                         std::span<const float> weights, int width, int channels, int block);
 
 }  // namespace diptych

@@ -14,7 +14,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST_CASE("every command has help with examples", "[app]") {
     const TemporaryFolder folder;
-    for (const std::string command : {"render", "compare", "info", "generate", "bench", "verify"}) {
+    for (const std::string command : {"render", "compare", "info", "generate", "bench", "verify", "converge"}) {
         const ProcessResult result = run_diptych(folder, {command, "--help"});
         INFO(command);
         CHECK(result.exit_code == 0);

@@ -36,8 +36,9 @@ public:
                 if (cancel) {
                     return;
                 }
-                shared::film_add(film_.pixels[pixel], glm::vec3(1), 3);
-                shared::film_add_moments(film_.moments[pixel], glm::vec3(1), film_.pixels[pixel].samples);
+                const glm::vec3 radiance(noise ? 2 * ((first + i) % 2) : 1);
+                shared::film_add(film_.pixels[pixel], radiance, 3);
+                shared::film_add_moments(film_.moments[pixel], radiance, film_.pixels[pixel].samples);
                 if (cancel_after > 0 && ++added_ == cancel_after) {
                     *to_cancel = true;
                 }
@@ -55,6 +56,7 @@ public:
     mutable double clock = 0;
     mutable int looks = 0;
     double look_seconds = 0;
+    bool noise = false;
     double slow_down = 0;  // each sample takes longer than the one before by this share of the first
     std::vector<std::uint32_t> firsts;
     std::vector<std::uint32_t> counts;
@@ -123,6 +125,43 @@ TEST_CASE("a sample that outlasts the time is rendered whole, once", "[render]")
     ProgressiveTarget target;
     target.seconds = 1;
     CHECK(render_progressively(renderer, target, cancel, clocked(renderer)).spp == 1);
+}
+
+TEST_CASE("an error target stops where the estimate meets it, at a count that hangs on no clock", "[render]") {
+    const double sample_seconds = GENERATE(1e-6, 0.02);
+    FakeRenderer renderer(sample_seconds);
+    renderer.noise = true;  // radiance 0 and 2 in turn: variance 1, so the relMSE of N samples is about 1 / N / 1.01
+    const std::atomic<bool> cancel = false;
+    ProgressiveTarget target;
+    target.relmse = 0.005;
+    std::vector<Progress> reports;
+    ProgressiveHooks hooks = clocked(renderer);
+    hooks.progress = [&](const Progress& progress) { reports.push_back(progress); };
+    const ProgressiveResult result = render_progressively(renderer, target, cancel, hooks);
+    CHECK(result.target_met);
+    CHECK_FALSE(result.interrupted);
+    CHECK(result.spp >= 198);
+    CHECK(result.spp <= 200);
+    REQUIRE(reports.back().relmse);
+    CHECK(*reports.back().relmse <= 0.005);
+    CHECK(std::isinf(reports.front().eta_seconds));  // nothing is known before 16 samples
+    CHECK(reports[reports.size() - 2].eta_seconds == Approx((200 - reports[reports.size() - 2].spp) * sample_seconds).epsilon(0.1));
+    // Other limits still hold, and the first one met counts.
+    FakeRenderer limited(sample_seconds);
+    limited.noise = true;
+    target.spp = 50;
+    const ProgressiveResult short_of_it = render_progressively(limited, target, cancel, clocked(limited));
+    CHECK(short_of_it.spp == 50);
+    CHECK_FALSE(short_of_it.target_met);
+    CHECK_FALSE(short_of_it.interrupted);
+}
+
+TEST_CASE("a few equal samples do not pass for exact", "[render]") {
+    FakeRenderer renderer(0.001);
+    const std::atomic<bool> cancel = false;
+    ProgressiveTarget target;
+    target.relmse = 0.1;
+    CHECK(render_progressively(renderer, target, cancel, clocked(renderer)).spp == least_judged_samples);
 }
 
 TEST_CASE("cancelling keeps what every pixel has", "[render]") {

@@ -144,7 +144,7 @@ TEST_CASE("the squared bias of renders is estimated without bias", "[stats]") {
     double said = 0, heavy = 0;
     for (int i = 0; i < trials; ++i) {
         const DeviationSums sums = made_up_sums(16, 3 * 20 * 20, bias, reference_noise, random, variance);
-        const BiasSquared result = bias_squared(sums, variance, 20, 3, 1);
+        const BiasSquared result = bias_squared(sums, variance, {}, 20, 3, 1);
         mean += result.value / trials;
         squares += result.value * result.value / trials;
         said += result.standard_error / trials;
@@ -167,11 +167,31 @@ TEST_CASE("a reference taken for exact makes its noise a bias", "[stats]") {
     std::mt19937_64 random(5);
     std::vector<float> variance;
     const DeviationSums sums = made_up_sums(16, 3 * 32 * 32, 0, 0.3, random, variance);
-    CHECK(bias_squared(sums, variance, 32, 3, 4).p > 0.001);
+    CHECK(bias_squared(sums, variance, {}, 32, 3, 4).p > 0.001);
     const std::vector<float> none(variance.size(), 0.0F);
-    const BiasSquared wrong = bias_squared(sums, none, 32, 3, 4);
+    const BiasSquared wrong = bias_squared(sums, none, {}, 32, 3, 4);
     CHECK(wrong.value == Approx(0.09).epsilon(0.1));
     CHECK(wrong.p < 1e-6);
+}
+
+TEST_CASE("weights keep the noise of a few values from hiding the bias of the rest", "[stats]") {
+    std::mt19937_64 random(8);
+    std::normal_distribution<float> normal;
+    DeviationSums sums;
+    std::vector<float> weights(1024, 1.0F), exact(1024, 0.0F);
+    for (int run = 0; run < 16; ++run) {
+        std::vector<float> deviations(1024);
+        for (std::size_t i = 0; i < deviations.size(); ++i) {
+            const bool bright = i % 64 == 0;
+            deviations[i] = bright ? 100 * normal(random) : 0.3F + normal(random);
+            weights[i] = bright ? 1e-4F : 1.0F;
+        }
+        sums.add(deviations);
+    }
+    CHECK(bias_squared(sums, exact, {}, 32, 1, 1).p > 1e-3);
+    const BiasSquared weighted = bias_squared(sums, exact, weights, 32, 1, 1);
+    CHECK(weighted.p < 1e-6);
+    CHECK(weighted.value == Approx(0.09).epsilon(0.2));
 }
 
 TEST_CASE("neighbours that share their noise want blocks", "[stats]") {
@@ -193,8 +213,8 @@ TEST_CASE("neighbours that share their noise want blocks", "[stats]") {
             }
             sums.add(deviations);
         }
-        by_pixel += bias_squared(sums, exact, int(side), 1, 1).p < 0.05 ? 1 : 0;
-        by_block += bias_squared(sums, exact, int(side), 1, 8).p < 0.05 ? 1 : 0;
+        by_pixel += bias_squared(sums, exact, {}, int(side), 1, 1).p < 0.05 ? 1 : 0;
+        by_block += bias_squared(sums, exact, {}, int(side), 1, 8).p < 0.05 ? 1 : 0;
     }
     CHECK(by_block / 300.0 < 0.11);
     CHECK(by_pixel / 300.0 > 0.2);
@@ -211,9 +231,9 @@ TEST_CASE("rare bright samples are told by their weight in one run", "[stats]") 
         }
         sums.add(deviations);
     }
-    CHECK(bias_squared(sums, std::vector<float>(3 * 256, 0.0F), 16, 3, 1).heavy > 0.2);
-    CHECK(std::isnan(bias_squared(sums, std::vector<float>(3 * 256, 0.0F), 16, 3, 16).p));  // one block
-    CHECK(std::isnan(bias_squared(DeviationSums{}, {}, 16, 3, 1).value));
+    CHECK(bias_squared(sums, std::vector<float>(3 * 256, 0.0F), {}, 16, 3, 1).heavy > 0.2);
+    CHECK(std::isnan(bias_squared(sums, std::vector<float>(3 * 256, 0.0F), {}, 16, 3, 16).p));  // one block
+    CHECK(std::isnan(bias_squared(DeviationSums{}, {}, {}, 16, 3, 1).value));
 }
 
 TEST_CASE("times and errors lie on lines between the measurements", "[stats]") {
