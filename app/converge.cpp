@@ -61,7 +61,7 @@ public:
         }
         Summary summary = summarize_results(options_, methods_, *reference_, state_);
         json_ = summary_to_json(options_, summary, *reference_, state_);
-        write_reference_picture(*reference_, state_);
+        write_page_pictures(methods_, *reference_, options_.page_side, state_);
         write_file_atomically(state_.path("summary.json"), json_.dump(2) + "\n");
         write_file_atomically(state_.path("summary.csv"), summary_to_csv(summary));
         write_page(json_, state_);
@@ -327,6 +327,9 @@ void add_converge(CLI::App& app, Run& run) {
         ->add_option("--picture-time", options->picture_seconds,
                      "Seconds of rendering that the pictures compare; by default the shortest of the methods' runs")
         ->check(positive_number());
+    command->add_option("--page-side", options->page_side, "The page's pictures are thinned to at most so many pixels a side")
+        ->check(CLI::Range(16, 32768))
+        ->capture_default_str();
     command->add_option("--seed", options->seed, "First of the seeds, which go on from there")->capture_default_str();
     add_scene_options(*command, options->arguments);
     command->add_option("--device", request.device, "Vulkan device by index or name; the best by default");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -49,6 +51,20 @@ std::string script_text(const nlohmann::ordered_json& json) {
     return text;
 }
 
+/// What a chart needs of the numbers: six digits.
+nlohmann::ordered_json rounded(nlohmann::ordered_json json) {
+    if (json.is_number_float()) {
+        const double value = json;
+        return std::isfinite(value) ? nlohmann::ordered_json(std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr)) : nullptr;
+    }
+    if (json.is_structured()) {
+        for (auto& value : json) {
+            value = rounded(value);
+        }
+    }
+    return json;
+}
+
 std::string html_text(const std::string& plain) {
     std::string text;
     for (const char c : plain) {
@@ -84,7 +100,7 @@ void write_page(const nlohmann::ordered_json& summary, const ConvergeState& stat
     const std::string name = scene.substr(scene.find_last_of('/') == std::string::npos ? 0 : scene.find_last_of('/') + 1);
     write_file_atomically(state.path("index.html"), filled(page_text("page.html"), {{"TITLE", html_text(name)},
                                                                                     {"STYLE", std::string(page_text("page.css"))},
-                                                                                    {"DATA", script_text(summary)},
+                                                                                    {"DATA", script_text(rounded(summary))},
                                                                                     {"PICTURES", script_text(pictures)},
                                                                                     {"CHART", std::string(page_text("chart.js"))},
                                                                                     {"VIEWER", std::string(page_text("viewer.js"))},

@@ -17,11 +17,10 @@ namespace diptych::app {
 
 namespace {
 
-// A page holds some ten pictures within itself. Larger ones are thinned, not averaged: what is looked at is the noise.
-constexpr int largest_side = 512;
 constexpr float least_error = -3, greatest_error = 1, error_levels = 24;  // log10 of the relative error
 
-Image thinned(const Image& image) {
+/// Every n-th pixel as it is, not averaged: what is looked at is the noise.
+Image thinned(const Image& image, int largest_side) {
     const int step = (std::max(image.width, image.height) + largest_side - 1) / largest_side;
     if (step <= 1) {
         return image;
@@ -37,13 +36,13 @@ Image thinned(const Image& image) {
     return thin;
 }
 
-Image shown(const Image& color, double exposure) {
-    return thinned(tonemapped(color, ToneMap::PbrNeutral, static_cast<float>(exposure)));
+Image shown(const Image& color, double exposure, int largest_side) {
+    return thinned(tonemapped(color, ToneMap::PbrNeutral, static_cast<float>(exposure)), largest_side);
 }
 
 /// The relative error of each pixel in steps of a sixth of a decade: few colours make a small file.
-Image error_map(const Image& color, const Image& reference) {
-    Image error = thinned(relative_difference(color, reference));
+Image error_map(const Image& color, const Image& reference, int largest_side) {
+    Image error = thinned(relative_difference(color, reference), largest_side);
     for (float& value : error.data) {
         const float level = (std::log10(std::max(value, 1e-30F)) - least_error) / (greatest_error - least_error);
         value = std::floor(std::clamp(level, 0.0F, 1.0F) * error_levels) / error_levels;
@@ -93,8 +92,6 @@ bool make_picture(MethodRunner& runner, double seconds, const Reference& referen
         outcome.seconds = device_seconds;
         image.metadata = render_metadata(request, outcome);
         write_exr(path, image);
-        write_png(state.path("pictures/" + stem + ".png"), shown(image.color, exposure_of(reference.image.color)));
-        write_png(state.path("pictures/" + stem + "-error.png"), error_map(image.color, reference.image.color));
         state.append(nlohmann::ordered_json{{"kind", "picture"},
                                             {"method", method.name},
                                             {"wanted_seconds", seconds},
@@ -105,9 +102,19 @@ bool make_picture(MethodRunner& runner, double seconds, const Reference& referen
     });
 }
 
-void write_reference_picture(const Reference& reference, const ConvergeState& state) {
+void write_page_pictures(const std::vector<Method>& methods, const Reference& reference, int largest_side, const ConvergeState& state) {
     std::filesystem::create_directories(state.path("pictures"));
-    write_png(state.path("pictures/reference.png"), shown(reference.image.color, exposure_of(reference.image.color)));
+    const Image& truth = reference.image.color;
+    const double exposure = exposure_of(truth);
+    write_png(state.path("pictures/reference.png"), shown(truth, exposure, largest_side));
+    for (const Method& method : methods) {
+        const std::string stem = state.path("pictures/" + file_stem(method.name));
+        if (!state.latest("picture", method.name).is_null() && std::filesystem::exists(stem + ".exr")) {
+            const Image color = read_image(stem + ".exr").color;
+            write_png(stem + ".png", shown(color, exposure, largest_side));
+            write_png(stem + "-error.png", error_map(color, truth, largest_side));
+        }
+    }
 }
 
 }  // namespace diptych::app

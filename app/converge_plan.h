@@ -21,6 +21,7 @@ struct ConvergeOptions {
     double seconds = 0;          // 0: spp_max is the limit
     double picture_seconds = 0;  // 0: as long as the fastest method's whole run
     double target_relmse = 0;    // 0: what every method reaches
+    int page_side = 512;         // of a picture within the page, at most
     std::uint32_t seed = 1;
     bool json = false;
     std::string command;  // as typed

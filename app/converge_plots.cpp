@@ -97,7 +97,7 @@ bool write_plots(const nlohmann::ordered_json& summary, const ConvergeState& sta
         text += data_block(method, index++);
     }
     text += "set logscale xy\nset format xy '10^{%T}'\nset grid linecolor rgb '#dddddd'\n"
-            "set key outside right top noenhanced\nset border linecolor rgb '#555555'\nset ylabel 'relMSE'\n";
+            "set key below left Left reverse noenhanced samplen 2\nset border linecolor rgb '#555555'\nset ylabel 'relMSE'\n";
     text += fmt::format("set title {} noenhanced\n", quoted(fmt::format("{}, {}x{}, {} runs", summary.at("scene").get<std::string>(),
                                                             summary.at("width").get<int>(), summary.at("height").get<int>(),
                                                             summary.at("runs").get<int>())));
