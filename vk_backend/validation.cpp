@@ -57,13 +57,16 @@ bool validation_wanted(bool option) {
 }
 
 vk::DebugUtilsMessengerCreateInfoEXT validation_messenger() {
-    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
-    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-    vk::DebugUtilsMessengerCreateInfoEXT info;
-    info.messageSeverity = Severity::eError | Severity::eWarning;
-    info.messageType = Type::eValidation | Type::ePerformance;
-    info.pfnUserCallback = reinterpret_cast<decltype(info.pfnUserCallback)>(&collect);
-    return info;
+    // In C's structure, whose callback has one type: Vulkan-Hpp has changed its own between releases.
+    VkDebugUtilsMessengerCreateInfoEXT info = vk::DebugUtilsMessengerCreateInfoEXT();
+    info.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT;
+    info.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    info.pfnUserCallback = &collect;
+    vk::DebugUtilsMessengerCreateInfoEXT messenger;
+    messenger = info;
+    return messenger;
 }
 
 }  // namespace diptych
