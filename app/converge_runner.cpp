@@ -9,7 +9,7 @@ namespace diptych::app {
 
 namespace {
 
-constexpr double warm_seconds = 0.05;
+constexpr double warm_seconds = 0.2;
 constexpr std::uint32_t most_spp = 1U << 24U;
 
 double now() {
@@ -87,21 +87,24 @@ bool MethodRunner::run(std::uint32_t seed, const std::vector<std::uint32_t>& cou
 std::uint32_t MethodRunner::samples_within(double seconds, const std::atomic<bool>& cancel) {
     Entry& at_work = entry(1);
     warm_up(at_work, cancel);
-    at_work.renderer->restart(method_.request.settings.seed);
-    const double before = at_work.renderer->device_seconds();
-    std::uint32_t done = 0, fits = 1;
-    for (std::uint32_t count = 1; count <= most_spp; count *= 2) {
-        at_work.renderer->render(done, count - done, cancel);
-        if (cancel) {
-            return 0;
-        }
-        done = count;
-        const double taken = at_work.renderer->device_seconds() - before;
-        if (taken <= seconds) {
-            fits = count;
-        }
-        if (2 * taken > 1.1 * seconds) {  // the next would not fit; the tenth is for a slow start
-            break;
+    std::uint32_t fits = 1;
+    for (int pass = 0; pass < 2; ++pass) {  // the first is slower than what follows, where dispatches still find their size
+        at_work.renderer->restart(method_.request.settings.seed);
+        const double before = at_work.renderer->device_seconds();
+        std::uint32_t done = 0;
+        for (std::uint32_t count = 1; count <= most_spp; count *= 2) {
+            at_work.renderer->render(done, count - done, cancel);
+            if (cancel) {
+                return 0;
+            }
+            done = count;
+            const double taken = at_work.renderer->device_seconds() - before;
+            if (taken <= seconds) {
+                fits = std::max(fits, count);
+            }
+            if (2 * taken > 1.1 * seconds) {  // the next would not fit; the tenth is for noise
+                break;
+            }
         }
     }
     return fits;

@@ -89,13 +89,14 @@
       panes.push({ name, image });
       byId("panes").append(pane);
     }
+    let thinned = "";
     const show = () => {
       byId("above").src = source(left.value); byId("under").src = source(right.value);
       byId("above").alt = left.value; byId("under").alt = right.value;
       byId("tag-left").textContent = left.value; byId("tag-right").textContent = right.value;
       for (const pane of panes) pane.image.src = source(pane.name);
       byId("pictures-note").textContent = layer === "picture"
-        ? `Each after ${seconds(data.equal_seconds)} of rendering, to the nearest whole sample. Drag the divider; + and − zoom all pictures together, so does a pinch, a double click, or the wheel once a picture was clicked. Tone mapped.`
+        ? `Each after ${seconds(data.equal_seconds)} of rendering, to the nearest whole sample. Drag the divider; + and − zoom all pictures together, so does a pinch, a double click, or the wheel once a picture was clicked. Tone mapped.${thinned}`
         : "Relative error of each pixel in steps of a sixth of a decade, from 0.001 (black) to 10 (pale yellow), on one scale. The reference has none and is shown as it is.";
     };
     left.value = pictured.length ? pictured[pictured.length - 1].method : names[0];
@@ -104,6 +105,12 @@
     choose(byId("choose-layer"), ["Picture", "Error"], "Picture", name => { layer = name.toLowerCase(); show(); });
     compare.style.aspectRatio = `${data.width} / ${data.height}`;
     compare.style.maxWidth = `calc(min(78vh, 800px) * ${data.width / data.height})`;
+    const whole = new Image();
+    whole.onload = () => {
+      const step = Math.round(data.width / whole.naturalWidth);
+      if (step > 1) { thinned = ` One pixel of ${step}×${step} is shown, as it is: an average would have less noise than the picture.`; show(); }
+    };
+    whole.src = images.reference.picture;
     show();
   }
   pictures();
