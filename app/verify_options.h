@@ -26,6 +26,7 @@ struct VerifyOptions {
     bool fresh_seeds = false;
     bool seed_given = false;
     bool require_pass = false;
+    bool common_seeds = false;  // run k of both sides has one seed; see compare_common_runs
     bool paired = false;  // path by path instead; see verify_paired.h
     std::string output;
     bool json = false;

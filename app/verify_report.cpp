@@ -47,7 +47,7 @@ void print_pair(const PairResult& pair, const VerifyOptions& options) {
         c.global_p, c.fisher_p, c.min_p, name_of(pair.verdict.verdict));
     if (pair.verdict.verdict != Verdict::pass) {
         fmt::print("    {}{}\n", pair.verdict.reason,
-                   pair.verdict.verdict == Verdict::inconclusive &&
+                   pair.verdict.verdict == Verdict::inconclusive && !single_run_decides(c) &&
                            !has_power(c, {.max_half_width = options.max_half_width,
                                           .max_tile_half_width = options.max_tile_half_width})
                        ? fmt::format(": try --spp {:.0f}", wanted_spp(pair, options))
@@ -63,9 +63,10 @@ Verdict verdict_of(const SuiteResult& suite) {
 
 void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
     const RenderSettings& settings = options.arguments.request.settings;
-    fmt::print("{} at {}x{}: {} runs a side, {} tiles of {}x{}, seeds from {}, {:.1f} s\n",
+    fmt::print("{} at {}x{}: {} runs a side{}, {} tiles of {}x{}, seeds from {}, {:.1f} s\n",
                options.arguments.request.scene, settings.width, settings.height, options.runs,
-               suite.grid.columns * suite.grid.rows, options.tile, options.tile, suite.seed, suite.seconds);
+               options.common_seeds ? " of common seeds" : "", suite.grid.columns * suite.grid.rows, options.tile,
+               options.tile, suite.seed, suite.seconds);
     fmt::print("{:<28} {:>7} {:>9}  {:^20} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9}  verdict\n", "pair", "spp", "bias %",
                "95 % interval", "+-", "detects", "tiles", "image p", "Fisher p", "least p");
     for (const PairResult& pair : suite.pairs) {
@@ -101,6 +102,7 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
     json["max_half_width_percent"] = options.max_half_width;
     json["max_tile_half_width_percent"] = options.max_tile_half_width;
     json["fresh_seeds"] = options.fresh_seeds;
+    json["common_seeds"] = options.common_seeds;
     json["seed"] = suite.seed;
     json["seconds"] = suite.seconds;
     json["commit"] = build_info::commit;
@@ -125,6 +127,8 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
         entry["tiles_tested"] = c.tested;
         entry["tiles_unequal"] = c.unequal;
         entry["tiles_heavy"] = {c.heavy_a, c.heavy_b};
+        entry["skewness"] = {c.tail_a.skewness, c.tail_b.skewness};
+        entry["largest_run_share"] = {c.tail_a.largest_share, c.tail_b.largest_share};
         entry["tile_half_width_percent"] = c.tile_half_width_percent;
         entry["tiles_within_1_percent"] = c.resolved_share;
         entry["stage"] = pair.stage;

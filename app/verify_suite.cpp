@@ -45,7 +45,8 @@ struct Sides {
                 return static_cast<std::size_t>(at - known.begin());
             }
             known.emplace_back(name, reference);
-            seeds.push_back(stage.seed + static_cast<std::uint32_t>(all.size()) * options.runs);
+            seeds.push_back(stage.seed +
+                            (options.common_seeds ? 0 : static_cast<std::uint32_t>(all.size()) * options.runs));
             all.emplace_back(name, scene, options, seeds.back(), stage.spp);
             return all.size() - 1;
         };
@@ -61,10 +62,11 @@ struct Sides {
     }
 };
 
-std::vector<TileComparison> compare(const Sides& sides, const TileTestOptions& options = {}) {
+std::vector<TileComparison> compare(const Sides& sides, bool common_seeds, const TileTestOptions& options = {}) {
     std::vector<TileComparison> comparisons;
+    const auto test = common_seeds ? compare_common_runs : compare_runs;
     for (const auto& [a, b] : sides.of_pair) {
-        comparisons.push_back(compare_runs(sides.all[a].runs(), sides.all[b].runs(), options));
+        comparisons.push_back(test(sides.all[a].runs(), sides.all[b].runs(), options));
     }
     return comparisons;
 }
@@ -75,7 +77,8 @@ std::uint32_t next_extension(std::uint32_t spp, double rendering_seconds, double
     return share < least_extension || spp >= most_spp ? 0 : static_cast<std::uint32_t>(std::floor(spp * share));
 }
 
-bool render_stage(const Stage& stage, Sides& sides, const std::atomic<bool>& cancel, const RunHook& hook) {
+bool render_stage(const Stage& stage, Sides& sides, bool common_seeds, const std::atomic<bool>& cancel,
+                  const RunHook& hook) {
     const double start = now();
     if (stage.seconds == 0) {
         return sides.extend(stage.spp, cancel, hook);
@@ -86,7 +89,8 @@ bool render_stage(const Stage& stage, Sides& sides, const std::atomic<bool>& can
             return false;
         }
         const double rendering = now() - start;
-        const std::vector<TileComparison> comparisons = compare(sides, {.resamplings = 0});  // for their widths
+        const std::vector<TileComparison> comparisons =
+            compare(sides, common_seeds, {.resamplings = 0});  // for their widths
         if (std::all_of(comparisons.begin(), comparisons.end(),
                         [&](const TileComparison& c) { return has_power(c, stage.limits); })) {
             break;
@@ -99,10 +103,10 @@ bool render_stage(const Stage& stage, Sides& sides, const std::atomic<bool>& can
 std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Scene& scene, const VerifyOptions& options,
                                                  const std::atomic<bool>& cancel, const RunHook& hook) {
     Sides sides(stage, scene, options);
-    if (!render_stage(stage, sides, cancel, hook)) {
+    if (!render_stage(stage, sides, options.common_seeds, cancel, hook)) {
         return std::nullopt;
     }
-    const std::vector<TileComparison> comparisons = compare(sides);
+    const std::vector<TileComparison> comparisons = compare(sides, options.common_seeds);
     const std::vector<PairVerdict> verdicts = judge(comparisons, stage.limits);
     std::vector<PairResult> results;
     for (std::size_t i = 0; i < stage.pairs.size(); ++i) {
