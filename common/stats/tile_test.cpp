@@ -169,7 +169,7 @@ double resampled_fisher_p(const std::vector<ChannelRuns>& tested, double observe
 void compare_tiles(std::span<const RunMeans> a, std::span<const RunMeans> b, const TileTestOptions& options,
                    TileComparison& result) {
     const double lit = lit_share * std::max(luminance(result.mean_a), luminance(result.mean_b));
-    std::vector<ChannelRuns> tested;
+    std::vector<ChannelRuns> summed;
     std::vector<double> p_values;
     std::vector<double> lit_half_widths;
     TileMoments moments_a;
@@ -200,16 +200,20 @@ void compare_tiles(std::span<const RunMeans> a, std::span<const RunMeans> b, con
         if (outcome.state == ChannelState::tested) {
             result.heavy_a += is_heavy(values_a) ? 1 : 0;
             result.heavy_b += is_heavy(values_b) ? 1 : 0;
-            p_values.push_back(outcome.p);
-            tested.push_back(std::move(runs));
+            // One path that parted says nothing of a mean, and its p, one and the same under either sign, has no
+            // distribution to add up with the others'.
+            if (!options.common_seeds || !is_heavy(values_a)) {
+                p_values.push_back(outcome.p);
+                summed.push_back(std::move(runs));
+            }
+            ++result.tested;
         }
         result.unequal += outcome.state == ChannelState::unequal ? 1 : 0;
         result.tiles.push_back(outcome);
     }
     moments_a.describe(a.size(), result.tail_a);
     moments_b.describe(b.size(), result.tail_b);
-    result.tested = tested.size();
-    result.fisher_p = resampled_fisher_p(tested, fisher_statistic(p_values), options);
+    result.fisher_p = resampled_fisher_p(summed, fisher_statistic(p_values), options);
     result.local_p = sidak_adjusted(result.min_p, static_cast<double>(std::max<std::size_t>(result.tested, 1)));
     if (!lit_half_widths.empty()) {
         std::sort(lit_half_widths.begin(), lit_half_widths.end());
@@ -273,7 +277,9 @@ TileComparison compare_common_runs(std::span<const RunMeans> a, std::span<const 
         accumulate(differences[run], a[run], 1);
         accumulate(differences[run], b[run], -1);
     }
-    TileComparison result = compare_runs(differences, std::vector<RunMeans>(b.size(), mean), options);
+    TileTestOptions common = options;
+    common.common_seeds = true;
+    TileComparison result = compare_runs(differences, std::vector<RunMeans>(b.size(), mean), common);
     result.common_seeds = true;
     result.heavy_b = result.heavy_a;  // a path that parts is as likely the brighter one on either side
     return result;

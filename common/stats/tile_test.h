@@ -18,9 +18,10 @@ struct RunMeans {
 };
 
 struct TileTestOptions {
-    double confidence = 0.95;  // of the intervals
-    int resamplings = 400;     // for the null distribution of Fisher's sum; below 2, chi-square as it is
-    std::uint32_t seed = 1;    // of those
+    double confidence = 0.95;   // of the intervals
+    int resamplings = 400;      // for the null distribution of Fisher's sum; below 2, chi-square as it is
+    std::uint32_t seed = 1;     // of those
+    bool common_seeds = false;  // compare_common_runs's to set
 };
 
 struct TileOutcome {

@@ -149,6 +149,16 @@ TEST_CASE("Common seeds leave what differs, as wide as it is") {
         return compare_common_runs(parted.a, parted.b);
     }();
     CHECK(judge(std::span(&one_run, 1), {}).front().verdict == Verdict::pass);
+    // One such path a tile: no two tiles' p differ, nor does their sum under any signs.
+    CommonRuns sparse = common_runs(random, 16, 0, 1);
+    for (std::size_t tile = 0; tile < 16; ++tile) {
+        for (double& channel : sparse.a[2 * tile].tiles[tile]) {
+            channel += tile % 2 == 0 ? 0.01 : -0.01;
+        }
+    }
+    const TileComparison partings = compare_common_runs(sparse.a, sparse.b);
+    CHECK(partings.tested == 16);
+    CHECK(judge(std::span(&partings, 1), {}).front().verdict == Verdict::pass);
     const CommonRuns equal = common_runs(random, 4, 0, 1);
     const TileComparison same = compare_common_runs(equal.a, equal.b);
     CHECK(judge(std::span(&same, 1), {}).front().verdict == Verdict::pass);
