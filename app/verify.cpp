@@ -174,12 +174,19 @@ void add_verify(CLI::App& app, Run& run) {
     CLI::Option* spp = command->add_option("--spp", options->spp, "Samples a pixel of each run")
                            ->check(CLI::Range(1U, 1U << 30U))
                            ->capture_default_str();
+    CLI::Option* against_spp =
+        command
+            ->add_option(
+                "--against-spp", options->against_spp,
+                "The same of the reference's runs, where the sides differ in noise or speed; as --spp by default")
+            ->check(CLI::Range(1U, 1U << 30U));
     CLI::Option* time = command
                             ->add_option("--time", options->seconds,
                                          "Double the samples until every pair has power or so many seconds are used up")
                             ->check(CLI::Range(0.001, 1e9))
                             ->check(finite_number())
-                            ->excludes(spp);
+                            ->excludes(spp)
+                            ->excludes(against_spp);
     command->add_option("--tile", options->tile, "Side of a tile, pixels")
         ->check(CLI::Range(1, 32768))
         ->capture_default_str();
@@ -207,6 +214,7 @@ void add_verify(CLI::App& app, Run& run) {
                 "--paired", options->paired,
                 "Instead: trace each path on both panels from the same random numbers, and compare them one by one")
             ->excludes(runs)
+            ->excludes(against_spp)
             ->excludes(time)
             ->excludes(fresh);
     command
