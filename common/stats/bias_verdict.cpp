@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stats/distributions.h"
 #include "stats/multiple_testing.h"
 #include "stats/power.h"
 
@@ -18,6 +19,17 @@ constexpr double lopsided_count = 2;
 constexpr double harmless_skewness = 0.4;
 constexpr double skewed_deviations = 2.5;
 constexpr double decisive_share = 0.5;
+constexpr double decisive_p = 1e-4;
+
+/// Beyond half, and beyond what the largest of so many normal values holds once in ten thousand times (Grubbs 1950).
+bool holds_too_much(const RunTail& tail) {
+    const double n = static_cast<double>(tail.runs);
+    if (n < 3) {
+        return false;
+    }
+    const double t = student_quantile(1 - decisive_p / (2 * n), n - 2);
+    return tail.largest_share > std::max(decisive_share, (n - 1) / n * t * t / (n - 2 + t * t));
+}
 
 std::string failure(const TileComparison& comparison, std::span<const double> adjusted, double alpha) {
     if (comparison.unequal > 0) {
@@ -92,8 +104,8 @@ bool unmet_tail(const TileComparison& comparison) {
 }
 
 bool single_run_decides(const TileComparison& comparison) {
-    return !comparison.common_seeds &&
-           std::max(comparison.tail_a.largest_share, comparison.tail_b.largest_share) > decisive_share;
+    return !comparison.common_seeds && comparison.standard_error_percent > 100 * channel_rounding &&
+           (holds_too_much(comparison.tail_a) || holds_too_much(comparison.tail_b));
 }
 
 bool has_power(const TileComparison& comparison, const VerdictLimits& limits) {

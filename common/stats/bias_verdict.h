@@ -44,9 +44,9 @@ bool lopsided_tails(const TileComparison& comparison);
 /// sign.
 bool unmet_tail(const TileComparison& comparison);
 
-/// Whether one run holds over half of the image mean's variance on a side: then the variance itself is a matter of
-/// chance, and an interval made of it no interval. Never where seeds are common: there one path that parts may make all
-/// of a minute variance.
+/// Whether one run holds over half of the image mean's variance on a side, and more than one of so few normal runs
+/// would: then the variance itself is a matter of chance, and an interval made of it no interval. Never where seeds are
+/// common: there one path that parts may make all of a minute variance.
 bool single_run_decides(const TileComparison& comparison);
 
 /// Image mean, Fisher's combination and the least tile of every pair go through Holm's procedure together, so one false

@@ -113,6 +113,8 @@ void compare_images(std::span<const RunMeans> a, std::span<const RunMeans> b, do
     }
     const auto image_luminance = [](const RunMeans& run) { return luminance(run.image); };
     const WelchTest test = welch(a, b, image_luminance);
+    result.tail_a.runs = a.size();
+    result.tail_b.runs = b.size();
     result.tail_a.largest_share = largest_share(series(a, image_luminance));
     result.tail_b.largest_share = largest_share(series(b, image_luminance));
     const double whole = nonzero_mean(luminance(result.mean_a), luminance(result.mean_b));

@@ -33,6 +33,7 @@ struct TileOutcome {
 
 /// What the runs of one side say about rare events, by luminance.
 struct RunTail {
+    std::size_t runs = 0;
     /// Of the image mean over the runs: third moments of independent tiles add up, and their sum is far better known
     /// than the moment of the few image means.
     double skewness = 0;

@@ -102,7 +102,8 @@ TEST_CASE("A side whose tail is not met yet makes no FAIL, and one run that deci
 TEST_CASE("The brighter side's tail excuses nothing") {
     TileComparison comparison;
     comparison.global_p = 1e-6;
-    comparison.tail_a = {3, 0.1, 0.6};
+    comparison.standard_error_percent = 0.04;
+    comparison.tail_a = {32, 3, 0.1, 0.6};
     comparison.bias_percent = -4;
     CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::inconclusive);
     comparison.bias_percent = 4;
@@ -111,6 +112,11 @@ TEST_CASE("The brighter side's tail excuses nothing") {
     const PairVerdict verdict = judge(std::span(&comparison, 1), {}).front();
     CHECK(verdict.verdict == Verdict::inconclusive);
     CHECK(verdict.reason.find("60 %") != std::string::npos);
+    comparison.standard_error_percent = 1e-5;  // of rounding alone
+    CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::pass);
+    comparison.standard_error_percent = 0.04;
+    comparison.tail_a.runs = 4;  // normal runs do that
+    CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::pass);
     comparison.tail_a = {};
     CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::pass);
 }
