@@ -8,8 +8,8 @@
 #include "command.h"
 #include "error.h"
 #include "interrupt.h"
-#include "report.h"
 #include "render/settings_names.h"
+#include "report.h"
 #include "scene_setup.h"
 #include "verify_paired.h"
 #include "verify_report.h"
@@ -25,6 +25,7 @@ constexpr const char* examples = R"(Examples:
   diptych verify cornell.gltf --backends cpu --integrators brdf,direct --against cpu/path --spp 256 -o figures
   diptych verify scene.glb --backends vulkan --against cpu --time 600 --require-pass --json
   diptych verify cornell.gltf --fresh-seeds --time 3600
+  diptych verify cornell.gltf --common-seeds --time 60 --require-pass
   diptych verify cornell.gltf --paired --spp 16
 Renders each side --runs times, every run with a seed of its own, and compares the runs' means by Welch's test: of the image, of all
 tiles together (Fisher), and of the least likely tile. FAIL: more than chance would do, over all pairs together, at --alpha. PASS: no such
@@ -173,13 +174,19 @@ void add_verify(CLI::App& app, Run& run) {
     CLI::Option* spp = command->add_option("--spp", options->spp, "Samples a pixel of each run")
                            ->check(CLI::Range(1U, 1U << 30U))
                            ->capture_default_str();
-    CLI::Option* time =
+    CLI::Option* against_spp =
         command
-            ->add_option("--time", options->seconds,
-                     "Double the samples until every pair has power or so many seconds are used up")
-        ->check(CLI::Range(0.001, 1e9))
-        ->check(finite_number())
-        ->excludes(spp);
+            ->add_option(
+                "--against-spp", options->against_spp,
+                "The same of the reference's runs, where the sides differ in noise or speed; as --spp by default")
+            ->check(CLI::Range(1U, 1U << 30U));
+    CLI::Option* time = command
+                            ->add_option("--time", options->seconds,
+                                         "Double the samples until every pair has power or so many seconds are used up")
+                            ->check(CLI::Range(0.001, 1e9))
+                            ->check(finite_number())
+                            ->excludes(spp)
+                            ->excludes(against_spp);
     command->add_option("--tile", options->tile, "Side of a tile, pixels")
         ->check(CLI::Range(1, 32768))
         ->capture_default_str();
@@ -201,12 +208,21 @@ void add_verify(CLI::App& app, Run& run) {
     CLI::Option* fresh = command->add_flag(
         "--fresh-seeds", options->fresh_seeds,
         "Seeds by chance, unless --seed repeats such a run; what fails is tried again with four times the samples");
+    CLI::Option* paired =
+        command
+            ->add_flag(
+                "--paired", options->paired,
+                "Instead: trace each path on both panels from the same random numbers, and compare them one by one")
+            ->excludes(runs)
+            ->excludes(against_spp)
+            ->excludes(time)
+            ->excludes(fresh);
     command
-        ->add_flag("--paired", options->paired,
-                   "Instead: trace each path on both panels from the same random numbers, and compare them one by one")
-        ->excludes(runs)
-        ->excludes(time)
-        ->excludes(fresh);
+        ->add_flag("--common-seeds", options->common_seeds,
+                   "Run k of both panels has one seed: the intervals are of the runs' differences, which are narrow "
+                   "where paths "
+                   "decide alike")
+        ->excludes(paired);
     command->add_flag("--require-pass", options->require_pass, "Exit 1 on INCONCLUSIVE too");
     add_scene_options(*command, options->arguments);
     command->add_option("--device", request.device, "Vulkan device by index or name; the best by default");

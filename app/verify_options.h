@@ -17,6 +17,7 @@ struct VerifyOptions {
     std::string against = "cpu";
     std::uint32_t runs = 32;
     std::uint32_t spp = 64;
+    std::uint32_t against_spp = 0;  // the reference's; 0: as spp
     std::uint32_t seed = 1;
     int tile = 16;
     double alpha = 1e-3;
@@ -26,7 +27,8 @@ struct VerifyOptions {
     bool fresh_seeds = false;
     bool seed_given = false;
     bool require_pass = false;
-    bool paired = false;  // path by path instead; see verify_paired.h
+    bool common_seeds = false;  // run k of both sides has one seed; see compare_common_runs
+    bool paired = false;        // path by path instead; see verify_paired.h
     std::string output;
     bool json = false;
 };

@@ -12,8 +12,8 @@ namespace diptych::app {
 
 struct PairedOptions {
     std::vector<Integrator> integrators{Integrator::path};
-    std::uint32_t spp = 16;  // samples 0 .. spp-1 of every pixel
-    std::string folder;      // for pictures of the paths that part; empty for none
+    std::uint32_t spp = 16;     // samples 0 .. spp-1 of every pixel
+    std::string folder;         // for pictures of the paths that part; empty for none
     bool require_pass = false;  // exit 1 on INCONCLUSIVE too
     bool json = false;
 };

@@ -79,6 +79,13 @@ std::vector<PairName> plan_pairs(const VerifyOptions& options) {
         }
     }
     check_backend_options(options, pairs);
+    if (options.common_seeds && options.against_spp != 0) {
+        throw Error("--against-spp: common seeds want the same samples on both sides");
+    }
+    if (options.common_seeds && (reference == "oracle" || std::count(options.backends.begin(), options.backends.end(),
+                                                                     std::string("oracle")) > 0)) {
+        throw Error("--common-seeds: the oracle draws random numbers of its own, so it has none in common");
+    }
     return pairs;
 }
 

@@ -31,26 +31,28 @@ double tile_ks_p(const TileComparison& comparison) {
 
 /// Samples a pixel at which the intervals would be as narrow as was asked, were the noise to fall as that of
 /// independent samples does.
-double wanted_spp(const PairResult& pair, const VerifyOptions& options) {
+std::string advice(const PairResult& pair, const VerifyOptions& options) {
     const double image = pair.comparison.half_width_percent / options.max_half_width;
     const double tiles = pair.comparison.tile_half_width_percent / options.max_tile_half_width;
-    const double factor = std::max(image, tiles);
-    return std::ceil(pair.spp * factor * factor);
+    const double factor = std::max(image, tiles) * std::max(image, tiles);
+    const std::string text = fmt::format(": try --spp {:.0f}", std::ceil(pair.spp * factor));
+    return pair.spp_b == pair.spp ? text : text + fmt::format(" --against-spp {:.0f}", std::ceil(pair.spp_b * factor));
 }
 
 void print_pair(const PairResult& pair, const VerifyOptions& options) {
     const TileComparison& c = pair.comparison;
     fmt::print(
-        "{:<28} {:>7} {:>9.4f}  [{:>8.4f}, {:>8.4f}] {:>8.4f} {:>8.4f} {:>5.0f}% {:>9.2g} {:>9.2g} {:>9.2g}  {}\n",
-        text_of(pair.names.a) + " - " + text_of(pair.names.b), pair.spp, c.bias_percent, c.ci95_percent[0],
-        c.ci95_percent[1], c.half_width_percent, pair.verdict.min_detectable_percent, 100 * c.resolved_share,
-        c.global_p, c.fisher_p, c.min_p, name_of(pair.verdict.verdict));
+        "{:<28} {:>11} {:>9.4f}  [{:>8.4f}, {:>8.4f}] {:>8.4f} {:>8.4f} {:>5.0f}% {:>9.2g} {:>9.2g} {:>9.2g}  {}\n",
+        text_of(pair.names.a) + " - " + text_of(pair.names.b),
+        pair.spp == pair.spp_b ? fmt::format("{}", pair.spp) : fmt::format("{}:{}", pair.spp, pair.spp_b),
+        c.bias_percent, c.ci95_percent[0], c.ci95_percent[1], c.half_width_percent, pair.verdict.min_detectable_percent,
+        100 * c.resolved_share, c.global_p, c.fisher_p, c.min_p, name_of(pair.verdict.verdict));
     if (pair.verdict.verdict != Verdict::pass) {
         fmt::print("    {}{}\n", pair.verdict.reason,
-                   pair.verdict.verdict == Verdict::inconclusive &&
+                   pair.verdict.verdict == Verdict::inconclusive && !single_run_decides(c) &&
                            !has_power(c, {.max_half_width = options.max_half_width,
                                           .max_tile_half_width = options.max_tile_half_width})
-                       ? fmt::format(": try --spp {:.0f}", wanted_spp(pair, options))
+                       ? advice(pair, options)
                        : "");
     }
 }
@@ -63,10 +65,11 @@ Verdict verdict_of(const SuiteResult& suite) {
 
 void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
     const RenderSettings& settings = options.arguments.request.settings;
-    fmt::print("{} at {}x{}: {} runs a side, {} tiles of {}x{}, seeds from {}, {:.1f} s\n",
+    fmt::print("{} at {}x{}: {} runs a side{}, {} tiles of {}x{}, seeds from {}, {:.1f} s\n",
                options.arguments.request.scene, settings.width, settings.height, options.runs,
-               suite.grid.columns * suite.grid.rows, options.tile, options.tile, suite.seed, suite.seconds);
-    fmt::print("{:<28} {:>7} {:>9}  {:^20} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9}  verdict\n", "pair", "spp", "bias %",
+               options.common_seeds ? " of common seeds" : "", suite.grid.columns * suite.grid.rows, options.tile,
+               options.tile, suite.seed, suite.seconds);
+    fmt::print("{:<28} {:>11} {:>9}  {:^20} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9}  verdict\n", "pair", "spp", "bias %",
                "95 % interval", "+-", "detects", "tiles", "image p", "Fisher p", "least p");
     for (const PairResult& pair : suite.pairs) {
         print_pair(pair, options);
@@ -101,6 +104,7 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
     json["max_half_width_percent"] = options.max_half_width;
     json["max_tile_half_width_percent"] = options.max_tile_half_width;
     json["fresh_seeds"] = options.fresh_seeds;
+    json["common_seeds"] = options.common_seeds;
     json["seed"] = suite.seed;
     json["seconds"] = suite.seconds;
     json["commit"] = build_info::commit;
@@ -111,6 +115,7 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
         entry["a"] = text_of(pair.names.a);
         entry["b"] = text_of(pair.names.b);
         entry["spp"] = pair.spp;
+        entry["spp_b"] = pair.spp_b;
         entry["bias_percent"] = c.bias_percent;
         entry["ci95_percent"] = c.ci95_percent;
         entry["channel_bias_percent"] = c.channel_bias_percent;
@@ -125,6 +130,8 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
         entry["tiles_tested"] = c.tested;
         entry["tiles_unequal"] = c.unequal;
         entry["tiles_heavy"] = {c.heavy_a, c.heavy_b};
+        entry["skewness"] = {c.tail_a.skewness, c.tail_b.skewness};
+        entry["largest_run_share"] = {c.tail_a.largest_share, c.tail_b.largest_share};
         entry["tile_half_width_percent"] = c.tile_half_width_percent;
         entry["tiles_within_1_percent"] = c.resolved_share;
         entry["stage"] = pair.stage;

@@ -26,6 +26,7 @@ struct Stage {
     std::vector<PairName> pairs;
     std::uint32_t seed = 0;
     std::uint32_t spp = 0;
+    std::uint32_t reference_spp = 0;
     double seconds = 0;  // 0: spp is what counts
     VerdictLimits limits;
     int number = 1;
@@ -35,6 +36,7 @@ struct Stage {
 struct Sides {
     std::vector<VerifySide> all;
     std::vector<std::uint32_t> seeds;
+    std::vector<bool> is_reference;
     std::vector<std::pair<std::size_t, std::size_t>> of_pair;  // indices
 
     Sides(const Stage& stage, const Scene& scene, const VerifyOptions& options) {
@@ -45,8 +47,10 @@ struct Sides {
                 return static_cast<std::size_t>(at - known.begin());
             }
             known.emplace_back(name, reference);
-            seeds.push_back(stage.seed + static_cast<std::uint32_t>(all.size()) * options.runs);
-            all.emplace_back(name, scene, options, seeds.back(), stage.spp);
+            is_reference.push_back(reference);
+            seeds.push_back(stage.seed +
+                            (options.common_seeds ? 0 : static_cast<std::uint32_t>(all.size()) * options.runs));
+            all.emplace_back(name, scene, options, seeds.back(), reference ? stage.reference_spp : stage.spp);
             return all.size() - 1;
         };
         for (const PairName& pair : stage.pairs) {
@@ -55,16 +59,22 @@ struct Sides {
         }
     }
 
-    bool extend(std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook) {
-        return std::all_of(all.begin(), all.end(),
-                           [&](VerifySide& side) { return side.extend(samples, cancel, hook); });
+    bool extend(std::uint32_t samples, std::uint32_t reference_samples, const std::atomic<bool>& cancel,
+                const RunHook& hook) {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (!all[i].extend(is_reference[i] ? reference_samples : samples, cancel, hook)) {
+                return false;
+            }
+        }
+        return true;
     }
 };
 
-std::vector<TileComparison> compare(const Sides& sides, const TileTestOptions& options = {}) {
+std::vector<TileComparison> compare(const Sides& sides, bool common_seeds, const TileTestOptions& options = {}) {
     std::vector<TileComparison> comparisons;
+    const auto test = common_seeds ? compare_common_runs : compare_runs;
     for (const auto& [a, b] : sides.of_pair) {
-        comparisons.push_back(compare_runs(sides.all[a].runs(), sides.all[b].runs(), options));
+        comparisons.push_back(test(sides.all[a].runs(), sides.all[b].runs(), options));
     }
     return comparisons;
 }
@@ -75,18 +85,20 @@ std::uint32_t next_extension(std::uint32_t spp, double rendering_seconds, double
     return share < least_extension || spp >= most_spp ? 0 : static_cast<std::uint32_t>(std::floor(spp * share));
 }
 
-bool render_stage(const Stage& stage, Sides& sides, const std::atomic<bool>& cancel, const RunHook& hook) {
+bool render_stage(const Stage& stage, Sides& sides, bool common_seeds, const std::atomic<bool>& cancel,
+                  const RunHook& hook) {
     const double start = now();
     if (stage.seconds == 0) {
-        return sides.extend(stage.spp, cancel, hook);
+        return sides.extend(stage.spp, stage.reference_spp, cancel, hook);
     }
     std::uint32_t samples = first_spp;
     while (samples > 0) {
-        if (!sides.extend(samples, cancel, hook)) {
+        if (!sides.extend(samples, samples, cancel, hook)) {
             return false;
         }
         const double rendering = now() - start;
-        const std::vector<TileComparison> comparisons = compare(sides, {.resamplings = 0});  // for their widths
+        const std::vector<TileComparison> comparisons =
+            compare(sides, common_seeds, {.resamplings = 0});  // for their widths
         if (std::all_of(comparisons.begin(), comparisons.end(),
                         [&](const TileComparison& c) { return has_power(c, stage.limits); })) {
             break;
@@ -99,10 +111,10 @@ bool render_stage(const Stage& stage, Sides& sides, const std::atomic<bool>& can
 std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Scene& scene, const VerifyOptions& options,
                                                  const std::atomic<bool>& cancel, const RunHook& hook) {
     Sides sides(stage, scene, options);
-    if (!render_stage(stage, sides, cancel, hook)) {
+    if (!render_stage(stage, sides, options.common_seeds, cancel, hook)) {
         return std::nullopt;
     }
-    const std::vector<TileComparison> comparisons = compare(sides);
+    const std::vector<TileComparison> comparisons = compare(sides, options.common_seeds);
     const std::vector<PairVerdict> verdicts = judge(comparisons, stage.limits);
     std::vector<PairResult> results;
     for (std::size_t i = 0; i < stage.pairs.size(); ++i) {
@@ -113,6 +125,7 @@ std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Scene
         result.verdict = verdicts[i];
         result.alpha = stage.limits.alpha;
         result.spp = sides.all[a].spp();
+        result.spp_b = sides.all[b].spp();
         result.seed_a = sides.seeds[a];
         result.seed_b = sides.seeds[b];
         result.stage = stage.number;
@@ -145,6 +158,7 @@ bool run_second_stage(Stage stage, const Scene& scene, const VerifyOptions& opti
     stage.number = 2;
     stage.seed += second_stage_seeds;
     stage.spp = second_stage_spp * results[failed.front()].spp;
+    stage.reference_spp = second_stage_spp * results[failed.front()].spp_b;
     stage.seconds = 0;
     stage.limits.alpha *= second_stage_alpha;
     const std::optional<std::vector<PairResult>> again = run_stage(stage, scene, options, cancel, hook);
@@ -165,6 +179,7 @@ std::optional<SuiteResult> run_suite(const VerifyOptions& options, const std::ve
     stage.pairs = pairs;
     stage.seed = seed;
     stage.spp = options.spp;
+    stage.reference_spp = options.against_spp > 0 ? options.against_spp : options.spp;
     stage.seconds = options.seconds * (options.fresh_seeds ? first_stage_time : 1);
     stage.limits.alpha = options.alpha;
     stage.limits.max_half_width = options.max_half_width;

@@ -14,6 +14,7 @@ struct PairResult {
     PairVerdict verdict;
     double alpha = 0;  // family-wise, of the stage that decided
     std::uint32_t spp = 0;
+    std::uint32_t spp_b = 0;
     std::uint32_t seed_a = 0;  // of the first run; the others follow
     std::uint32_t seed_b = 0;
     int stage = 1;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stats/distributions.h"
 #include "stats/multiple_testing.h"
 #include "stats/power.h"
 
@@ -15,6 +16,20 @@ namespace {
 constexpr std::size_t tests_a_pair = 3;
 constexpr double lopsided_share = 0.01;
 constexpr double lopsided_count = 2;
+constexpr double harmless_skewness = 0.4;
+constexpr double skewed_deviations = 2.5;
+constexpr double decisive_share = 0.5;
+constexpr double decisive_p = 1e-4;
+
+/// Beyond half, and beyond what the largest of so many normal values holds once in ten thousand times (Grubbs 1950).
+bool holds_too_much(const RunTail& tail) {
+    const double n = static_cast<double>(tail.runs);
+    if (n < 3) {
+        return false;
+    }
+    const double t = student_quantile(1 - decisive_p / (2 * n), n - 2);
+    return tail.largest_share > std::max(decisive_share, (n - 1) / n * t * t / (n - 2 + t * t));
+}
 
 std::string failure(const TileComparison& comparison, std::span<const double> adjusted, double alpha) {
     if (comparison.unequal > 0) {
@@ -41,7 +56,20 @@ std::string tail_warning(const TileComparison& comparison) {
         std::min(comparison.heavy_a, comparison.heavy_b));
 }
 
+std::string skewness_warning(const TileComparison& comparison) {
+    const RunTail& tail = comparison.bias_percent < 0 ? comparison.tail_a : comparison.tail_b;
+    return fmt::format("differs, but the darker side's runs are skewed ({:.1f}, one holds {:.0f} % of their variance): "
+                       "too few samples "
+                       "to tell a loss from bright ones not met yet",
+                       tail.skewness, 100 * tail.largest_share);
+}
+
 std::string weakness(const TileComparison& comparison, const VerdictLimits& limits) {
+    if (single_run_decides(comparison)) {
+        return fmt::format(
+            "heavy tail: one run holds {:.0f} % of the image mean's variance, so its interval says little",
+            100 * std::max(comparison.tail_a.largest_share, comparison.tail_b.largest_share));
+    }
     if (comparison.half_width_percent > limits.max_half_width) {
         return fmt::format("the image mean is known to {:.3g} % only, {:.3g} % is wanted",
                            comparison.half_width_percent, limits.max_half_width);
@@ -69,8 +97,20 @@ bool lopsided_tails(const TileComparison& comparison) {
     return std::abs(a - b) > std::max(lopsided_count, lopsided_share * static_cast<double>(comparison.tested));
 }
 
+bool unmet_tail(const TileComparison& comparison) {
+    const RunTail& darker = comparison.bias_percent < 0 ? comparison.tail_a : comparison.tail_b;
+    return !comparison.common_seeds &&
+           darker.skewness > std::max(harmless_skewness, skewed_deviations * darker.skewness_error);
+}
+
+bool single_run_decides(const TileComparison& comparison) {
+    return !comparison.common_seeds && comparison.standard_error_percent > 100 * channel_rounding &&
+           (holds_too_much(comparison.tail_a) || holds_too_much(comparison.tail_b));
+}
+
 bool has_power(const TileComparison& comparison, const VerdictLimits& limits) {
-    return std::isfinite(comparison.bias_percent) && comparison.half_width_percent <= limits.max_half_width &&
+    return std::isfinite(comparison.bias_percent) && !single_run_decides(comparison) &&
+           comparison.half_width_percent <= limits.max_half_width &&
            comparison.tile_half_width_percent <= limits.max_tile_half_width;
 }
 
@@ -89,11 +129,12 @@ std::vector<PairVerdict> judge(std::span<const TileComparison> comparisons, cons
         verdict.min_detectable_percent = minimum_detectable(comparison.standard_error_percent, comparison.freedom,
                                                             limits.alpha / static_cast<double>(p.size()), limits.power);
         const double decisive_p = lopsided_tails(comparison) ? own[0] : verdict.adjusted_p;
-        if (decisive_p <= limits.alpha || comparison.unequal > 0) {
+        const bool unmet = unmet_tail(comparison);
+        if ((decisive_p <= limits.alpha && !unmet) || comparison.unequal > 0) {
             verdict.verdict = Verdict::fail;
             verdict.reason = failure(comparison, own, limits.alpha);
         } else if (verdict.adjusted_p <= limits.alpha) {
-            verdict.reason = tail_warning(comparison);
+            verdict.reason = unmet ? skewness_warning(comparison) : tail_warning(comparison);
         } else if (has_power(comparison, limits)) {
             verdict.verdict = Verdict::pass;
             verdict.reason = "no difference, and one would have been seen";

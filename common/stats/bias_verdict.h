@@ -37,9 +37,22 @@ bool has_power(const TileComparison& comparison, const VerdictLimits& limits);
 /// harm: the difference is symmetric.
 bool lopsided_tails(const TileComparison& comparison);
 
+/// Whether the darker side's runs are skewed to the bright. Then rare bright samples hold much of the mean, and what
+/// the side has not met of them looks like a loss: t-tests fail such sides up to a hundred times as often as alpha
+/// says, all to the dark, where the skewness that the tiles show exceeds 0.4. The brighter side's skewness explains
+/// nothing away, nor does that of differences of common seeds, in which either side's bright samples have their own
+/// sign.
+bool unmet_tail(const TileComparison& comparison);
+
+/// Whether one run holds over half of the image mean's variance on a side, and more than one of so few normal runs
+/// would: then the variance itself is a matter of chance, and an interval made of it no interval. Never where seeds are
+/// common: there one path that parts may make all of a minute variance.
+bool single_run_decides(const TileComparison& comparison);
+
 /// Image mean, Fisher's combination and the least tile of every pair go through Holm's procedure together, so one false
 /// FAIL among all pairs has probability alpha at most. FAIL wants no power; PASS does. Under lopsided tails, tiles
-/// alone make no FAIL but INCONCLUSIVE.
+/// alone make no FAIL but INCONCLUSIVE; with an unmet tail nothing does but constants that differ. Where a single run
+/// decides, there is no PASS.
 std::vector<PairVerdict> judge(std::span<const TileComparison> comparisons, const VerdictLimits& limits);
 
 /// FAIL where one fails, else INCONCLUSIVE where one is.

@@ -52,14 +52,45 @@ double nonzero_mean(double mean_a, double mean_b) {
     return mean_b != 0 ? mean_b : mean_a;
 }
 
-/// One run holds over half of the sum of squares: for normal runs, one in ten thousand at 32 of them.
-bool is_heavy(const std::vector<double>& values) {
+/// Central moments over the runs, of a sum of independent tiles.
+struct TileMoments {
+    double second = 0;
+    double third = 0;
+    double second_cubed = 0;  // sum of the tiles' own
+
+    void add(const std::vector<double>& values) {
+        const double mean = summarize(values).mean;
+        const double n = static_cast<double>(values.size());
+        double squares = 0;
+        for (const double value : values) {
+            squares += (value - mean) * (value - mean) / n;
+            third += std::pow(value - mean, 3) / n;
+        }
+        second += squares;
+        second_cubed += squares * squares * squares;
+    }
+    /// Of normal values, g1 has about the variance 6/n.
+    void describe(std::size_t runs, RunTail& tail) const {
+        if (second > 0) {
+            const double scale = std::pow(second, 1.5);
+            tail.skewness = third / scale;
+            tail.skewness_error = std::sqrt(6 * second_cubed / static_cast<double>(runs)) / scale;
+        }
+    }
+};
+
+double largest_share(const std::vector<double>& values) {
     const SampleSummary summary = summarize(values);
     double largest = 0;
     for (const double value : values) {
         largest = std::max(largest, (value - summary.mean) * (value - summary.mean));
     }
-    return largest > heavy_share * summary.variance * (summary.count - 1);
+    return largest > 0 ? largest / (summary.variance * (summary.count - 1)) : 0;
+}
+
+/// One run holds over half of the sum of squares: for normal runs, one in ten thousand at 32 of them.
+bool is_heavy(const std::vector<double>& values) {
+    return largest_share(values) > heavy_share;
 }
 
 void compare_images(std::span<const RunMeans> a, std::span<const RunMeans> b, double confidence,
@@ -82,6 +113,10 @@ void compare_images(std::span<const RunMeans> a, std::span<const RunMeans> b, do
     }
     const auto image_luminance = [](const RunMeans& run) { return luminance(run.image); };
     const WelchTest test = welch(a, b, image_luminance);
+    result.tail_a.runs = a.size();
+    result.tail_b.runs = b.size();
+    result.tail_a.largest_share = largest_share(series(a, image_luminance));
+    result.tail_b.largest_share = largest_share(series(b, image_luminance));
     const double whole = nonzero_mean(luminance(result.mean_a), luminance(result.mean_b));
     const double half_width = confidence_half_width(test, confidence);
     result.bias_percent = percent(test.difference, whole);
@@ -136,9 +171,11 @@ double resampled_fisher_p(const std::vector<ChannelRuns>& tested, double observe
 void compare_tiles(std::span<const RunMeans> a, std::span<const RunMeans> b, const TileTestOptions& options,
                    TileComparison& result) {
     const double lit = lit_share * std::max(luminance(result.mean_a), luminance(result.mean_b));
-    std::vector<ChannelRuns> tested;
+    std::vector<ChannelRuns> summed;
     std::vector<double> p_values;
     std::vector<double> lit_half_widths;
+    TileMoments moments_a;
+    TileMoments moments_b;
     std::vector<Channels> runs_a(a.size());
     std::vector<Channels> runs_b(b.size());
     for (std::size_t tile = 0; tile < a.front().tiles.size(); ++tile) {
@@ -156,6 +193,8 @@ void compare_tiles(std::span<const RunMeans> a, std::span<const RunMeans> b, con
         outcome.lit = whole > lit;
         outcome.half_width_percent =
             percent(confidence_half_width(welch_test(values_a, values_b), options.confidence), whole);
+        moments_a.add(values_a);
+        moments_b.add(values_b);
         if (outcome.lit) {
             lit_half_widths.push_back(outcome.half_width_percent);
         }
@@ -163,14 +202,20 @@ void compare_tiles(std::span<const RunMeans> a, std::span<const RunMeans> b, con
         if (outcome.state == ChannelState::tested) {
             result.heavy_a += is_heavy(values_a) ? 1 : 0;
             result.heavy_b += is_heavy(values_b) ? 1 : 0;
-            p_values.push_back(outcome.p);
-            tested.push_back(std::move(runs));
+            // One path that parted says nothing of a mean, and its p, one and the same under either sign, has no
+            // distribution to add up with the others'.
+            if (!options.common_seeds || !is_heavy(values_a)) {
+                p_values.push_back(outcome.p);
+                summed.push_back(std::move(runs));
+            }
+            ++result.tested;
         }
         result.unequal += outcome.state == ChannelState::unequal ? 1 : 0;
         result.tiles.push_back(outcome);
     }
-    result.tested = tested.size();
-    result.fisher_p = resampled_fisher_p(tested, fisher_statistic(p_values), options);
+    moments_a.describe(a.size(), result.tail_a);
+    moments_b.describe(b.size(), result.tail_b);
+    result.fisher_p = resampled_fisher_p(summed, fisher_statistic(p_values), options);
     result.local_p = sidak_adjusted(result.min_p, static_cast<double>(std::max<std::size_t>(result.tested, 1)));
     if (!lit_half_widths.empty()) {
         std::sort(lit_half_widths.begin(), lit_half_widths.end());
@@ -194,6 +239,20 @@ void check_runs(std::span<const RunMeans> a, std::span<const RunMeans> b) {
     }
 }
 
+void accumulate(Channels& sum, const Channels& value, double factor) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        sum[c] += factor * value[c];
+    }
+}
+
+/// sum += factor * run, in every number of it.
+void accumulate(RunMeans& sum, const RunMeans& run, double factor) {
+    accumulate(sum.image, run.image, factor);
+    for (std::size_t tile = 0; tile < run.tiles.size(); ++tile) {
+        accumulate(sum.tiles[tile], run.tiles[tile], factor);
+    }
+}
+
 }  // namespace
 
 TileComparison compare_runs(std::span<const RunMeans> a, std::span<const RunMeans> b, const TileTestOptions& options) {
@@ -201,6 +260,30 @@ TileComparison compare_runs(std::span<const RunMeans> a, std::span<const RunMean
     TileComparison result;
     compare_images(a, b, options.confidence, result);
     compare_tiles(a, b, options, result);
+    return result;
+}
+
+TileComparison compare_common_runs(std::span<const RunMeans> a, std::span<const RunMeans> b,
+                                   const TileTestOptions& options) {
+    check_runs(a, b);
+    if (a.size() != b.size()) {
+        throw Error("runs of common seeds come in pairs");
+    }
+    RunMeans mean{{}, std::vector<Channels>(b.front().tiles.size())};
+    for (const RunMeans& run : b) {
+        accumulate(mean, run, 1 / static_cast<double>(b.size()));
+    }
+    // One side b's mean, without noise; the other that mean and each pair's difference: Welch's test is Student's then.
+    std::vector<RunMeans> differences(a.size(), mean);
+    for (std::size_t run = 0; run < a.size(); ++run) {
+        accumulate(differences[run], a[run], 1);
+        accumulate(differences[run], b[run], -1);
+    }
+    TileTestOptions common = options;
+    common.common_seeds = true;
+    TileComparison result = compare_runs(differences, std::vector<RunMeans>(b.size(), mean), common);
+    result.common_seeds = true;
+    result.heavy_b = result.heavy_a;  // a path that parts is as likely the brighter one on either side
     return result;
 }
 

@@ -18,9 +18,10 @@ struct RunMeans {
 };
 
 struct TileTestOptions {
-    double confidence = 0.95;  // of the intervals
-    int resamplings = 400;     // for the null distribution of Fisher's sum; below 2, chi-square as it is
-    std::uint32_t seed = 1;    // of those
+    double confidence = 0.95;   // of the intervals
+    int resamplings = 400;      // for the null distribution of Fisher's sum; below 2, chi-square as it is
+    std::uint32_t seed = 1;     // of those
+    bool common_seeds = false;  // compare_common_runs's to set
 };
 
 struct TileOutcome {
@@ -28,6 +29,16 @@ struct TileOutcome {
     double p = 1;                   // channel_p
     double half_width_percent = 0;  // of the luminance's difference, relative to side b (a where b is black)
     bool lit = false;               // brighter than a thousandth of the image
+};
+
+/// What the runs of one side say about rare events, by luminance.
+struct RunTail {
+    std::size_t runs = 0;
+    /// Of the image mean over the runs: third moments of independent tiles add up, and their sum is far better known
+    /// than the moment of the few image means.
+    double skewness = 0;
+    double skewness_error = 0;  // its standard error, were the runs normal
+    double largest_share = 0;   // of the image means' sum of squares about their mean, in one run
 };
 
 struct TileComparison {
@@ -43,6 +54,9 @@ struct TileComparison {
     double standard_error_percent = 0;
     double freedom = 0;
     double global_p = 1;  // channel_p
+    bool common_seeds = false;
+    RunTail tail_a;
+    RunTail tail_b;
 
     // Tiles.
     double fisher_p = 1;      // of all tested tiles together
@@ -67,5 +81,12 @@ struct TileComparison {
 /// keeps its own variance. The sum is then judged as a scaled chi-square.
 TileComparison compare_runs(std::span<const RunMeans> a, std::span<const RunMeans> b,
                             const TileTestOptions& options = {});
+
+/// The same where run k of both sides has one seed, so that a path often differs between them by rounding alone
+/// (common random numbers): the runs' differences are the draws, and T² is Hotelling's of one sample. As the mean
+/// difference has the same expectation, nothing is hidden that independent seeds would show; what both sides have in
+/// common no longer widens the interval. As many runs on either side.
+TileComparison compare_common_runs(std::span<const RunMeans> a, std::span<const RunMeans> b,
+                                   const TileTestOptions& options = {});
 
 }  // namespace diptych

@@ -16,7 +16,7 @@ constexpr int height = 24;
 constexpr int tile = 8;
 
 Film render_oracle(const Scene& scene, const RenderSettings& settings, std::uint32_t spp) {
-    const auto renderer = make_oracle_renderer(scene, settings, oracle::Mode::area, 2);
+    const auto renderer = make_oracle_renderer(scene, settings, oracle::Mode::mis, 2);
     const std::atomic<bool> cancel{false};
     renderer->render(0, spp, cancel);
     return renderer->film();

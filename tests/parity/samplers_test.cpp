@@ -100,6 +100,7 @@ void check_directions(Bench& bench, const DrawSetup& setup, const Chart& chart, 
                  << r.null_fraction << " integral " << r.pdf_integral << " deltas " << deltas);
     CHECK(r.impossible == 0);
     CHECK(apart == 0);
+    CHECK(r.quadrature < quadrature_limit);
     CHECK(r.p > sidak_threshold(tests));
     CHECK(std::abs(1.0 - r.null_fraction - r.pdf_integral) < 1e-3 + 4.5 * std::sqrt(0.25 / bench.draws));
 }

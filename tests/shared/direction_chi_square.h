@@ -1,6 +1,7 @@
 // A chi-square test of drawn directions against the density that claims to describe them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -128,7 +129,72 @@ struct ChiSquareResult {
     double null_fraction = 0.0;  ///< Of the draws.
     double pdf_integral = 0.0;
     int64_t impossible = 0;  ///< Draws where the density is zero, negative or not finite.
+    /// What the quadrature's own error adds to the statistic, in that statistic's standard deviations.
+    double quadrature = 0.0;
 };
+
+/// Above this, the expected counts rather than the draws could decide.
+constexpr double quadrature_limit = 0.1;
+
+/// The integral of a density over the chart's cell [x, x + width] x [y, y + height], by one jittered point in each of
+/// n x n strata, which is without bias; and the share of the points where there is any.
+struct CellIntegral {
+    double value = 0.0;
+    double share = 0.0;
+};
+
+template <class Pdf>
+CellIntegral integrate_cell(const Chart& chart, double x, double y, double width, double height, int n,
+                            Uniforms& jitter, const Pdf& pdf) {
+    CellIntegral result;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const vec2 u = jitter.next_pair();
+            vec3 w;
+            const double jacobian = chart.from_square(x + width * (i + static_cast<double>(u.x)) / n,
+                                                      y + height * (j + static_cast<double>(u.y)) / n, w);
+            const double value = jacobian > 0.0 ? jacobian * static_cast<double>(pdf(w)) : 0.0;
+            result.value += value;
+            result.share += value > 0.0 ? 1.0 : 0.0;
+        }
+    }
+    result.value *= width * height / (n * n);
+    result.share /= n * n;
+    return result;
+}
+
+/// The integral over each of columns x rows cells, by fine x fine points in one. The horizon, where the density jumps,
+/// cuts slivers off cells: there, and in cells beside (the rows close a circle), it takes four times as many a side.
+template <class Pdf>
+std::vector<double> integrate_cells(const Chart& chart, int columns, int rows, int fine, const Pdf& pdf,
+                                    std::uint32_t seed) {
+    Uniforms jitter(seed);
+    std::vector<CellIntegral> cells(static_cast<size_t>(columns * rows));
+    const auto over = [&](int i, int j, int n) {
+        return integrate_cell(chart, static_cast<double>(i) / columns, static_cast<double>(j) / rows, 1.0 / columns,
+                              1.0 / rows, n, jitter, pdf);
+    };
+    const auto index = [&](int i, int j) { return static_cast<size_t>(i * rows + (j + rows) % rows); };
+    for (int i = 0; i < columns; ++i) {
+        for (int j = 0; j < rows; ++j) {
+            cells[index(i, j)] = over(i, j, fine);
+        }
+    }
+    std::vector<double> values(cells.size());
+    for (int i = 0; i < columns; ++i) {
+        for (int j = 0; j < rows; ++j) {
+            double least = 1.0;
+            double most = 0.0;
+            for (int k = 0; k < 9; ++k) {
+                const double share = cells[index(std::clamp(i + k / 3 - 1, 0, columns - 1), j + k % 3 - 1)].share;
+                least = std::min(least, share);
+                most = std::max(most, share);
+            }
+            values[index(i, j)] = least < 1.0 && most > 0.0 ? over(i, j, 4 * fine).value : cells[index(i, j)].value;
+        }
+    }
+    return values;
+}
 
 /// `draw(direction)` gives false for a null sample; `pdf(direction)` is per steradian. Null samples are a cell of their
 /// own.
@@ -136,30 +202,20 @@ template <class Draw, class Pdf>
 ChiSquareResult chi_square(const Chart& chart, int64_t draws, const Draw& draw, const Pdf& pdf) {
     constexpr int columns = 65;
     constexpr int rows = 130;
-    // Where the horizon leaves a sliver of a cell, what its points miss of it grows with the draws, its noise with their root.
-    const int fine = draws > 4000000 ? 64 : draws > 400000 ? 32 : draws > 150000 ? 16 : 8;
+    const int fine = draws > 4000000 ? 48 : draws > 400000 ? 16 : 8;
     std::vector<double> expected(columns * rows + 1, 0.0);
     std::vector<double> observed(columns * rows + 1, 0.0);
     ChiSquareResult result;
-    // Jittered: the horizon is a jump of the density, and may run along the cells.
-    Uniforms jitter(0x5eed);
-    for (int i = 0; i < columns * fine; ++i) {
-        for (int j = 0; j < rows * fine; ++j) {
-            const vec2 u = jitter.next_pair();
-            vec3 w;
-            const double x = (i + static_cast<double>(u.x)) / (columns * fine);
-            const double y = (j + static_cast<double>(u.y)) / (rows * fine);
-            const double jacobian = chart.from_square(x, y, w);
-            if (jacobian > 0.0) {
-                expected[static_cast<size_t>((i / fine) * rows + j / fine)] +=
-                    jacobian * static_cast<double>(pdf(w)) / (columns * fine) / (rows * fine);
-            }
-        }
+    const std::vector<double> sums[2] = {integrate_cells(chart, columns, rows, fine, pdf, 0x5eed),
+                                         integrate_cells(chart, columns, rows, fine, pdf, 0x5eee)};
+    double error = 0.0;
+    for (size_t cell = 0; cell < sums[0].size(); ++cell) {
+        const double mean = 0.5 * (sums[0][cell] + sums[1][cell]);
+        const double apart = 0.5 * (sums[0][cell] - sums[1][cell]);
+        expected[cell] = mean;
+        result.pdf_integral += mean;
+        error += apart * apart / std::max(mean, 5.0 / static_cast<double>(draws));
     }
-    for (const double e : expected) {
-        result.pdf_integral += e;
-    }
-    expected.back() = std::max(0.0, 1.0 - result.pdf_integral);
     for (int64_t k = 0; k < draws; ++k) {
         vec3 w;
         if (!draw(w)) {
@@ -178,10 +234,13 @@ ChiSquareResult chi_square(const Chart& chart, int64_t draws, const Draw& draw, 
         observed[static_cast<size_t>(i * rows + j)] += 1.0;
     }
     result.null_fraction = observed.back() / static_cast<double>(draws);
+    expected.back() = std::max(0.0, 1.0 - result.pdf_integral);
     for (double& e : expected) {
         e = std::max(e * static_cast<double>(draws), 1e-9);  // pooled, not impossible: the density above says what is
     }
-    result.p = chi_square_fit(observed, expected).p;
+    const ChiSquareFit fit = chi_square_fit(observed, expected);
+    result.p = fit.p;
+    result.quadrature = error * static_cast<double>(draws) / std::sqrt(2.0 * std::max(fit.freedom, 1.0));
     return result;
 }
 

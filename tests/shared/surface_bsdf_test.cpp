@@ -170,6 +170,7 @@ void check_mapped_draws(int64_t draws) {
                       << c.smooth_tilt << " null " << r.null_fraction << " integral " << r.pdf_integral);
         CHECK(r.impossible == 0);
         CHECK(inconsistent == 0);
+        CHECK(r.quadrature < quadrature_limit);
         CHECK(r.p > sidak_threshold(static_cast<int>(cases.size())));
         CHECK(std::abs(1.0 - r.null_fraction - r.pdf_integral) <
               1e-3 + 2.0 * std::sqrt(0.25 / static_cast<double>(draws)));

@@ -1,0 +1,172 @@
+// Sides of heavy tails, and sides that share their random numbers.
+#include <algorithm>
+#include <cstdio>
+
+#include "catch.h"
+#include "error.h"
+#include "stats/bias_verdict.h"
+#include "stats/kolmogorov_smirnov.h"
+#include "stats_runs.h"
+
+using namespace diptych;
+using namespace diptych::tests;
+
+namespace {
+
+constexpr int runs_a_side = 32;
+
+/// The mean of so many samples u^(-1/1.5): mean 3, no variance. Grey.
+TileNoise pareto_noise(int samples) {
+    return [=](std::mt19937_64& random) {
+        std::uniform_real_distribution<double> uniform(1e-300, 1);
+        double mean = 0;
+        for (int i = 0; i < samples; ++i) {
+            mean += std::pow(uniform(random), -1 / 1.5) / samples;
+        }
+        return Channels{mean, mean, mean};
+    };
+}
+
+TileNoise steady_noise(double mean) {
+    return [=, noise = grey(normal_noise())](std::mt19937_64& random) {
+        const double value = mean * (1 + 1e-3 * (noise(random)[0] - 1));
+        return Channels{value, value, value};
+    };
+}
+
+struct Count {
+    int by_p = 0;
+    int failed = 0;
+    int passed = 0;
+    int darker = 0;  // of by_p
+};
+
+Count count_verdicts(const TileNoise& noise_a, const TileNoise& noise_b, int repeats, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    Count count;
+    for (int i = 0; i < repeats; ++i) {
+        const std::vector<RunMeans> a = made_up_runs(random, runs_a_side, 16, noise_a);
+        const std::vector<RunMeans> b = made_up_runs(random, runs_a_side, 16, noise_b);
+        const TileComparison comparison = compare_runs(a, b, {.resamplings = 0});
+        const PairVerdict verdict =
+            judge(std::span(&comparison, 1), {.max_half_width = 100, .max_tile_half_width = 100}).front();
+        count.by_p += comparison.global_p <= 1e-3 / 3 ? 1 : 0;
+        count.darker += comparison.global_p <= 1e-3 / 3 && comparison.bias_percent < 0 ? 1 : 0;
+        count.failed += verdict.verdict == Verdict::fail ? 1 : 0;
+        count.passed += verdict.verdict == Verdict::pass ? 1 : 0;
+    }
+    return count;
+}
+
+/// One image of noise that both sides have, and what they do not have in common: `apart` of it.
+struct CommonRuns {
+    std::vector<RunMeans> a;
+    std::vector<RunMeans> b;
+};
+
+CommonRuns common_runs(std::mt19937_64& random, int tiles, double apart, double factor_a) {
+    CommonRuns runs;
+    runs.a = made_up_runs(random, runs_a_side, tiles, normal_noise());
+    runs.b = runs.a;
+    const std::vector<RunMeans> own = made_up_runs(random, runs_a_side, tiles, normal_noise());
+    for (std::size_t i = 0; i < runs.a.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            runs.a[i].image[c] = factor_a * (runs.a[i].image[c] + apart * (own[i].image[c] - 1));
+            for (std::size_t tile = 0; tile < runs.a[i].tiles.size(); ++tile) {
+                runs.a[i].tiles[tile][c] = factor_a * (runs.a[i].tiles[tile][c] + apart * (own[i].tiles[tile][c] - 1));
+            }
+        }
+    }
+    return runs;
+}
+
+}  // namespace
+
+TEST_CASE("A side whose tail is not met yet makes no FAIL, and one run that decides no PASS") {
+    constexpr int repeats = 1500;
+    const Count heavy = count_verdicts(pareto_noise(31), steady_noise(3), repeats, 21);
+    std::printf(
+        "samples without a variance, unbiased: the image fails in %d of %d by p, %d of them dark; %d FAIL, %d PASS\n",
+        heavy.by_p, repeats, heavy.darker, heavy.failed, heavy.passed);
+    CHECK(heavy.by_p >= 20);  // what the rule is for: a third of alpha allows 0.5
+    CHECK(heavy.darker == heavy.by_p);
+    CHECK(heavy.failed <= 4);
+    const Count biased = count_verdicts(grey(normal_noise()), steady_noise(1.2), 100, 22);
+    CHECK(biased.failed >= 97);
+    // A loss of samples that are skewed on both sides alike, but not as rare as that.
+    const Count mild =
+        count_verdicts(grey(lognormal_noise(2, 256)), shifted(grey(lognormal_noise(2, 256)), 0.2), 100, 23);
+    CHECK(mild.failed >= 90);
+}
+
+TEST_CASE("The brighter side's tail excuses nothing") {
+    TileComparison comparison;
+    comparison.global_p = 1e-6;
+    comparison.standard_error_percent = 0.04;
+    comparison.tail_a = {32, 3, 0.1, 0.6};
+    comparison.bias_percent = -4;
+    CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::inconclusive);
+    comparison.bias_percent = 4;
+    CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::fail);
+    comparison.global_p = 0.5;
+    const PairVerdict verdict = judge(std::span(&comparison, 1), {}).front();
+    CHECK(verdict.verdict == Verdict::inconclusive);
+    CHECK(verdict.reason.find("60 %") != std::string::npos);
+    comparison.standard_error_percent = 1e-5;  // of rounding alone
+    CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::pass);
+    comparison.standard_error_percent = 0.04;
+    comparison.tail_a.runs = 4;  // normal runs do that
+    CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::pass);
+    comparison.tail_a = {};
+    CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::pass);
+}
+
+TEST_CASE("Common seeds leave what differs, as wide as it is") {
+    std::mt19937_64 random(31);
+    std::vector<double> global;
+    std::vector<double> tiles;
+    int covered = 0;
+    constexpr int repeats = 400;
+    for (int i = 0; i < repeats; ++i) {
+        const CommonRuns runs = common_runs(random, 4, 0.01, 1);
+        const TileComparison c = compare_common_runs(runs.a, runs.b, {.resamplings = 0});
+        global.push_back(c.global_p);
+        for (const TileOutcome& tile : c.tiles) {
+            tiles.push_back(tile.p);
+        }
+        covered += c.ci95_percent[0] <= 0 && c.ci95_percent[1] >= 0 ? 1 : 0;
+        CHECK(c.half_width_percent < 0.05);
+        CHECK(compare_runs(runs.a, runs.b, {.resamplings = 0}).half_width_percent > 1);
+        CHECK(c.freedom == Approx(runs_a_side - 1));
+    }
+    CHECK(kolmogorov_smirnov_uniform(global).p > 1e-3);
+    CHECK(kolmogorov_smirnov_uniform(tiles).p > 1e-3);
+    CHECK(std::abs(covered - 0.95 * repeats) < 3.5 * std::sqrt(repeats * 0.95 * 0.05));
+
+    const CommonRuns biased = common_runs(random, 4, 0.01, 1.001);
+    const TileComparison comparison = compare_common_runs(biased.a, biased.b);
+    CHECK(comparison.bias_percent == Approx(0.1).margin(0.03));
+    CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::fail);
+    const TileComparison one_run = [&] {  // all of the difference in one path that parted
+        CommonRuns parted = common_runs(random, 4, 0, 1);
+        for (double& channel : parted.a[5].image) {
+            channel += 1e-3;
+        }
+        return compare_common_runs(parted.a, parted.b);
+    }();
+    CHECK(judge(std::span(&one_run, 1), {}).front().verdict == Verdict::pass);
+    // One such path a tile: no two tiles' p differ, nor does their sum under any signs.
+    CommonRuns sparse = common_runs(random, 16, 0, 1);
+    for (std::size_t tile = 0; tile < 16; ++tile) {
+        for (double& channel : sparse.a[2 * tile].tiles[tile]) {
+            channel += tile % 2 == 0 ? 0.01 : -0.01;
+        }
+    }
+    const TileComparison partings = compare_common_runs(sparse.a, sparse.b);
+    CHECK(partings.tested == 16);
+    CHECK(judge(std::span(&partings, 1), {}).front().verdict == Verdict::pass);
+    const CommonRuns equal = common_runs(random, 4, 0, 1);
+    const TileComparison same = compare_common_runs(equal.a, equal.b);
+    CHECK(judge(std::span(&same, 1), {}).front().verdict == Verdict::pass);
+    CHECK_THROWS_AS(compare_common_runs(std::span(equal.a).first(8), equal.b), Error);
+}
