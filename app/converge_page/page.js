@@ -81,7 +81,7 @@
       dot.style.background = name === "reference" ? "var(--ink)" : byName[name].color;
       frame.style.aspectRatio = `${data.width} / ${data.height}`;
       image.alt = `${name}, ${about(name)}`;
-      caption.append(dot, element("span", name, "name"), element("span", about(name), "what"));
+      caption.append(dot, element("span", name.replaceAll(":", ":\u200b"), "name"), element("span", about(name), "what"));
       frame.append(image); pane.append(frame, caption);
       frame.onpick = () => { right.value = name; show(); };
       frame.title = "Click: compare it on the right";
