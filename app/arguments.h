@@ -51,8 +51,8 @@ void resolve_resampling_names(RenderArguments& arguments);
 /// Throws Error for an integrator whose samples depend on one another, in a command that takes each by itself.
 void refuse_resampling(const char* option, Integrator integrator, const char* command);
 
-/// Throws Error where an option of resampling was given to an integrator that would ignore it.
-void refuse_idle_resampling_options(const RenderArguments& arguments);
+/// Throws Error where an option of resampling was given and nothing will resample.
+void refuse_idle_resampling_options(const RenderArguments& arguments, bool resampled);
 
 /// Names to values, and options that contradict the backend refused. Throws Error naming the option.
 void resolve_names(RenderArguments& arguments);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "arguments.h"
 #include "backend.h"
@@ -19,7 +20,10 @@ namespace {
 constexpr const char* examples = R"(Examples:
   diptych bench cornell.gltf --backend cpu
   diptych bench street.glb --backend vulkan --size 1920x1080 --integrators brdf,path --frames 20 --json
-Medians over the frames; the integrators take turns, so that all ratios come from one run under the same conditions.)";
+  diptych bench street.glb --backend vulkan --integrators direct,ris,restir --max-depth 1
+Medians over the frames; restir's frames follow one another. The integrators take turns, so that all ratios come from one run under the same conditions.)";
+
+constexpr std::uint32_t warm_up_frames = 2;
 
 struct Options {
     RenderArguments arguments;
@@ -35,7 +39,8 @@ struct Entry {
     std::unique_ptr<PackedScene> packed;  // outlives the renderer, which may read it
     std::unique_ptr<Renderer> renderer;
     std::vector<double> frame_seconds;
-    TraversalBench traversal;
+    std::optional<TraversalBench> traversal;  // of integrators that take each sample by itself
+    std::vector<std::vector<double>> pass_seconds;  // of each pass, its frames
     double rays_per_frame = 0;
 };
 
@@ -43,8 +48,8 @@ struct Figures {
     double milliseconds = 0;  // one sample a pixel
     double samples_per_second = 0;
     double rays_per_second = 0;
-    double bare_rays_per_second = 0;
-    double share_of_bare = 0;
+    double bare_rays_per_second = 0;  // 0 where that is not measured
+    double share_of_bare = 0;         // likewise
     double cost_relative_to_brdf = 0;  // a sample; 0 where brdf was not measured
 };
 
@@ -60,7 +65,7 @@ std::vector<Entry> make_entries(Options& options, const Scene& scene, StepLine& 
         line.begin(name + ", building");
         RenderRequest request = options.arguments.request;
         request.settings.integrator = integrator_from_name(name);
-        request.settings.sample_count = options.spp * static_cast<std::uint32_t>(options.frames + 1);
+        request.settings.sample_count = options.spp * (warm_up_frames + static_cast<std::uint32_t>(options.frames));
         Entry entry;
         entry.integrator = request.settings.integrator;
         entry.packed = std::make_unique<PackedScene>(pack_scene(scene, request.settings));
@@ -73,22 +78,31 @@ std::vector<Entry> make_entries(Options& options, const Scene& scene, StepLine& 
 void measure(Entry& entry, std::uint32_t frame, std::uint32_t spp) {
     const std::atomic<bool> never = false;
     const double before = entry.renderer->device_seconds();
+    const std::vector<PassTime> passes_before = entry.renderer->pass_times();
     entry.renderer->render(frame * spp, spp, never);
     entry.frame_seconds.push_back(entry.renderer->device_seconds() - before);
+    const std::vector<PassTime> passes = entry.renderer->pass_times();
+    entry.pass_seconds.resize(passes.size());
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        entry.pass_seconds[i].push_back(passes[i].seconds - passes_before[i].seconds);
+    }
 }
 
-/// The first frame of each warms up and does not count.
+/// The first frames of each warm up and do not count: two, since the first has none before it to reuse.
 void run_rounds(std::vector<Entry>& entries, const Options& options, StepLine& line) {
     for (Entry& entry : entries) {
         line.begin(fmt::format("{}, warming up", name_of(entry.integrator)));
-        measure(entry, 0, options.spp);
+        for (std::uint32_t frame = 0; frame < warm_up_frames; ++frame) {
+            measure(entry, frame, options.spp);
+        }
         entry.frame_seconds.clear();
+        entry.pass_seconds.clear();
         entry.rays_per_frame = -static_cast<double>(film_totals(entry.renderer->film()).rays);
     }
-    for (int frame = 1; frame <= options.frames; ++frame) {
+    for (int frame = 0; frame < options.frames; ++frame) {
         for (Entry& entry : entries) {
-            line.begin(fmt::format("{}, frame {}", name_of(entry.integrator), frame));
-            measure(entry, static_cast<std::uint32_t>(frame), options.spp);
+            line.begin(fmt::format("{}, frame {}", name_of(entry.integrator), frame + 1));
+            measure(entry, warm_up_frames + static_cast<std::uint32_t>(frame), options.spp);
         }
     }
     for (Entry& entry : entries) {
@@ -96,6 +110,9 @@ void run_rounds(std::vector<Entry>& entries, const Options& options, StepLine& l
         entry.rays_per_frame /= options.frames;
     }
     for (Entry& entry : entries) {
+        if (resamples(entry.integrator)) {
+            continue;
+        }
         line.begin(fmt::format("{}, bare traversal", name_of(entry.integrator)));
         entry.traversal = entry.renderer->bench_traversal(options.spp);  // medians of its own repeats
     }
@@ -115,15 +132,35 @@ std::vector<Figures> evaluate(const std::vector<Entry>& entries, const Options& 
         figures.milliseconds = 1000 * seconds / options.spp;
         figures.samples_per_second = pixels * options.spp / seconds;
         figures.rays_per_second = entry.rays_per_frame / seconds;
-        figures.bare_rays_per_second = static_cast<double>(entry.traversal.rays) / entry.traversal.bare_seconds;
-        figures.share_of_bare = entry.traversal.bare_seconds / entry.traversal.integrator_seconds;
+        if (entry.traversal) {
+            figures.bare_rays_per_second = static_cast<double>(entry.traversal->rays) / entry.traversal->bare_seconds;
+            figures.share_of_bare = entry.traversal->bare_seconds / entry.traversal->integrator_seconds;
+        }
         figures.cost_relative_to_brdf = brdf_seconds > 0 ? seconds / brdf_seconds : 0;
         all.push_back(figures);
     }
     return all;
 }
 
-void print_text(const std::vector<Entry>& entries, const std::vector<Figures>& all, const RenderSettings& settings) {
+/// A sample's, each the median over the frames.
+std::vector<PassTime> median_passes(const Entry& entry, std::uint32_t spp) {
+    std::vector<PassTime> passes = entry.renderer->pass_times();
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        passes[i].seconds = median(entry.pass_seconds[i]) / spp;
+    }
+    return passes;
+}
+
+nlohmann::ordered_json passes_to_json(const Entry& entry, std::uint32_t spp) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const PassTime& pass : median_passes(entry, spp)) {
+        json.push_back({{"pass", pass.pass}, {"milliseconds", 1000 * pass.seconds}});
+    }
+    return json;
+}
+
+void print_text(const std::vector<Entry>& entries, const std::vector<Figures>& all, const RenderSettings& settings,
+                std::uint32_t spp) {
     fmt::print("{} at {}x{}, {}\n", entries.front().renderer->backend(), settings.width, settings.height,
                entries.front().renderer->device());
     fmt::print("{:<10} {:>10} {:>12} {:>10} {:>12} {:>10} {:>10}\n", "integrator", "ms/frame", "Msamples/s", "Mray/s",
@@ -132,9 +169,14 @@ void print_text(const std::vector<Entry>& entries, const std::vector<Figures>& a
         const Figures& figures = all[i];
         const std::string relative =
             figures.cost_relative_to_brdf > 0 ? fmt::format("{:.2f}x", figures.cost_relative_to_brdf) : "-";
-        fmt::print("{:<10} {:>10.3f} {:>12.3f} {:>10.2f} {:>12.2f} {:>9.1f}% {:>10}\n", name_of(entries[i].integrator),
+        const bool bare = entries[i].traversal.has_value();
+        fmt::print("{:<10} {:>10.3f} {:>12.3f} {:>10.2f} {:>12} {:>10} {:>10}\n", name_of(entries[i].integrator),
                    figures.milliseconds, figures.samples_per_second / 1e6, figures.rays_per_second / 1e6,
-                   figures.bare_rays_per_second / 1e6, 100 * figures.share_of_bare, relative);
+                   bare ? fmt::format("{:.2f}", figures.bare_rays_per_second / 1e6) : "-",
+                   bare ? fmt::format("{:.1f}%", 100 * figures.share_of_bare) : "-", relative);
+        for (const PassTime& pass : median_passes(entries[i], spp)) {
+            fmt::print("  {:<18} {:>10.3f}\n", pass.pass, 1000 * pass.seconds);
+        }
     }
 }
 
@@ -155,15 +197,19 @@ nlohmann::ordered_json to_json(const std::vector<Entry>& entries, const std::vec
         const RendererCosts costs = entries[i].renderer->costs();
         const auto relative = figures.cost_relative_to_brdf > 0 ? nlohmann::ordered_json(figures.cost_relative_to_brdf)
                                                                 : nlohmann::ordered_json();
+        const auto bare = [&](double value) {
+            return entries[i].traversal ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+        };
         json["integrators"].push_back({{"integrator", name_of(entries[i].integrator)},
                                        {"milliseconds", figures.milliseconds},
                                        {"samples_per_second", figures.samples_per_second},
                                        {"rays_per_second", figures.rays_per_second},
-                                       {"bare_rays_per_second", figures.bare_rays_per_second},
-                                       {"share_of_bare", figures.share_of_bare},
+                                       {"bare_rays_per_second", bare(figures.bare_rays_per_second)},
+                                       {"share_of_bare", bare(figures.share_of_bare)},
                                        {"cost_relative_to_brdf", relative},
                                        {"build_seconds", costs.build_seconds},
                                        {"compile_seconds", costs.compile_seconds},
+                                       {"passes", passes_to_json(entries[i], options.spp)},
                                        {"bytes", costs.bytes}});
     }
     return json;
@@ -174,9 +220,9 @@ int run_bench(Options options) {
     if (options.arguments.request.backend == "oracle") {
         throw Error("--backend oracle: bench measures the panels, cpu and vulkan");
     }
-    for (const std::string& name : options.integrators) {
-        refuse_resampling("--integrators", integrator_from_name(name), "bench");
-    }
+    refuse_idle_resampling_options(options.arguments,
+                                   std::any_of(options.integrators.begin(), options.integrators.end(),
+                                               [](const auto& name) { return resamples(integrator_from_name(name)); }));
     const Scene scene = prepare_scene(options.arguments);
     std::vector<Entry> entries;
     {
@@ -189,7 +235,7 @@ int run_bench(Options options) {
     if (options.json) {
         print_json(to_json(entries, figures, options));
     } else {
-        print_text(entries, figures, options.arguments.request.settings);
+        print_text(entries, figures, options.arguments.request.settings, options.spp);
     }
     return exit_done;
 }

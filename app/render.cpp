@@ -52,7 +52,7 @@ void check_options(Options& options) {
     RenderSettings& settings = request.settings;
     resolve_names(options.arguments);
     resolve_oracle_mode(options.arguments);
-    refuse_idle_resampling_options(options.arguments);
+    refuse_idle_resampling_options(options.arguments, resamples(settings.integrator));
     tonemap_from_name(request.tonemap);
     if (request.seconds > 0 || (request.target_error > 0 && options.spp_option->count() == 0)) {
         request.spp = 0;

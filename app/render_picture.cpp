@@ -43,7 +43,7 @@ bool is_uneven(const Film& film) {
 
 nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome& outcome, const Renderer& renderer,
                                const FilmTotals& totals, const std::optional<double>& relmse, std::uint32_t features,
-                               double device_seconds) {
+                               double device_seconds, const std::vector<PassTime>& passes) {
     const RendererCosts costs = renderer.costs();
     const double seconds = std::max(outcome.seconds, 1e-12);
     nlohmann::ordered_json json;
@@ -65,6 +65,9 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
     json["build_seconds"] = costs.build_seconds;
     json["compile_seconds"] = costs.compile_seconds;
     json["device_seconds"] = device_seconds;
+    for (const PassTime& pass : passes) {
+        json["pass_seconds"][pass.pass] = pass.seconds;
+    }
     json["bytes"] = costs.bytes;
     json["features"] = feature_names(features);
     json["samples_per_second"] = static_cast<double>(totals.samples + totals.nonfinite) / seconds;
@@ -87,6 +90,7 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
 Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
                        const std::atomic<bool>& cancel, const std::string& label, bool quiet) {
     const double device_seconds = renderer.device_seconds();
+    const std::vector<PassTime> passes_before = renderer.pass_times();
     ProgressiveResult result;
     {
         ProgressLine line(request.spp, label);
@@ -121,8 +125,12 @@ Picture render_picture(Renderer& renderer, const RenderRequest& request, std::ui
         report_warning(fmt::format("{}: {} of {} samples were not finite, negative or beyond what is summed, and were dropped",
                                    request.output, totals.nonfinite, totals.samples + totals.nonfinite));
     }
+    std::vector<PassTime> passes = renderer.pass_times();
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        passes[i].seconds -= passes_before[i].seconds;
+    }
     picture.json = to_json(request, outcome, renderer, totals, estimated_relmse(film), features,
-                           renderer.device_seconds() - device_seconds);
+                           renderer.device_seconds() - device_seconds, passes);
     if (!quiet) {
         fmt::print("{}: {}x{}, {} spp in {:.2f} s on {}{}\n", request.output, film.width, film.height, outcome.spp,
                    outcome.seconds, outcome.device, outcome.interrupted ? ", interrupted" : "");

@@ -46,9 +46,9 @@ void refuse_resampling(const char* option, Integrator integrator, const char* co
     }
 }
 
-void refuse_idle_resampling_options(const RenderArguments& arguments) {
+void refuse_idle_resampling_options(const RenderArguments& arguments, bool resampled) {
     for (const CLI::Option* option : arguments.resampling_options) {
-        if (option->count() > 0 && !resamples(arguments.request.settings.integrator)) {
+        if (option->count() > 0 && !resampled) {
             throw Error(fmt::format("{}: goes with --integrator ris or restir", option->get_name()));
         }
     }

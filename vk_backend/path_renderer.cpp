@@ -125,8 +125,12 @@ void PathRenderer::restart(std::uint32_t seed) {
         constants_.seed = seed;
         replace_constants(*gpu_, bindings_, constants_);
         schedule_.restart();
-        clear_film(*gpu_, film_);
+        diptych::clear_film(*gpu_, film_);
     });
+}
+
+void PathRenderer::clear_film() {
+    in_context("emptying the film", [&] { diptych::clear_film(*gpu_, film_); });
 }
 
 void PathRenderer::move_to(const PackedScene& moment) {

@@ -32,8 +32,11 @@ public:
     RendererCosts costs() const override { return costs_; }
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override;
     void restart(std::uint32_t seed) override;
+    void clear_film() override;
     void move_to(const PackedScene& moment) override;
     double device_seconds() const override { return queue_->seconds(); }
+    std::vector<PassTime> pass_times() const override;
+    void watch_reservoirs(ReservoirHook hook) override { hook_ = std::move(hook); }
     Film film() const override;
     TraversalBench bench_traversal(std::uint32_t samples) override;
     std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery> queries) override;
@@ -46,6 +49,7 @@ private:
     SceneAddresses addresses(const FilmMemory& film) const;
     void render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
     void render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
+    void show_reservoirs(const ResamplingStep& step);
     std::uint64_t slice_budget() const;
     bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
     void warm_up(const TracePipeline& pipeline, const Bindings& bindings) const;
@@ -67,6 +71,7 @@ private:
     ResamplingMemory resampling_;
     std::array<TracePipeline, resampling_stages> stages_;
     ResamplingSchedule schedule_;
+    ReservoirHook hook_;
     Bindings bindings_;
     SpeedEstimate speed_;
     std::unique_ptr<TimedQueue> queue_;

@@ -1,28 +1,18 @@
 #include <vector>
 
 #include "path_renderer.h"
+#include "readback.h"
 
 namespace diptych {
 
 // Passes of a fast device go together in one submission, up to the budget; a pass of a slow one is cut into several. A frame that has
 // begun is finished, or its reservoirs would be of two frames.
 void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
-    struct Part {
-        ResamplingStage stage;
-        shared::Dispatch dispatch;
-        Region region;
-    };
-    std::vector<Part> parts;
+    std::vector<TimedPart> parts;
     std::uint64_t work = 0;
     const auto flush = [&] {
         if (!parts.empty()) {
-            queue_->submit(work, [&](const vk::raii::CommandBuffer& commands) {
-                for (const Part& part : parts) {
-                    full_barrier(commands);
-                    record_dispatch(commands, stages_[static_cast<std::size_t>(part.stage)], layout_, bindings_,
-                                    part.dispatch, part.region.width, part.region.height);
-                }
-            });
+            queue_->submit(work, parts);
         }
         parts.clear();
         work = 0;
@@ -32,18 +22,43 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
             SliceCursor cursor({0, 0, constants_.size.x, constants_.size.y}, frame, 1);
             while (!cursor.done()) {
                 const Slice slice = cursor.next(slice_budget(), gpu_->ray_tracing.maxRayDispatchInvocationCount);
-                if (work + slice.work() > slice_budget()) {
+                if (work + slice.work() > slice_budget() || parts.size() == TimedQueue::most_parts) {
                     flush();
                 }
                 shared::Dispatch dispatch{};
                 dispatch.origin = {slice.region.x, slice.region.y};
                 dispatch.pass = step.pass;
-                parts.push_back({step.stage, dispatch, slice.region});
+                parts.push_back({step.place, [this, dispatch, slice, stage = step.stage](const auto& commands) {
+                                     full_barrier(commands);
+                                     record_dispatch(commands, stages_[static_cast<std::size_t>(stage)], layout_, bindings_,
+                                                     dispatch, slice.region.width, slice.region.height);
+                                 }});
                 work += slice.work();
+            }
+            if (hook_) {
+                flush();
+                queue_->drain();
+                show_reservoirs(step);
             }
         }
     }
     flush();
+}
+
+void PathRenderer::show_reservoirs(const ResamplingStep& step) {
+    const auto all = read_array<shared::Reservoir>(*gpu_, resampling_.reservoirs);
+    const std::size_t pixels = std::size_t{constants_.size.x} * constants_.size.y;
+    hook_(step, std::span(all).subspan(resulting_set(step) * pixels, pixels));
+}
+
+std::vector<PassTime> PathRenderer::pass_times() const {
+    std::vector<PassTime> times;
+    for (const std::string& pass : pass_names(constants_)) {
+        if (gpu_->tick_seconds > 0) {
+            times.push_back({pass, queue_->seconds_of(times.size())});
+        }
+    }
+    return times;
 }
 
 }  // namespace diptych

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "error.h"
 #include "render/film.h"
 #include "render/recorded_path.h"
+#include "render/resampling_schedule.h"
 
 namespace diptych {
 
@@ -29,6 +31,15 @@ struct TraversalBench {
     double integrator_seconds = 0;  // tracing and shading them
     double bare_seconds = 0;        // tracing them again, nothing else
 };
+
+/// One pass of ris or restir, all its frames together.
+struct PassTime {
+    std::string pass;  // of pass_names
+    double seconds = 0;
+};
+
+/// Called with what a pass of ris or restir has left: the reservoirs of all pixels, row-major from the top.
+using ReservoirHook = std::function<void(const ResamplingStep&, std::span<const shared::Reservoir>)>;
 
 class Renderer {
 public:
@@ -51,6 +62,10 @@ public:
     /// anything anew. Time and costs go on counting.
     virtual void restart(std::uint32_t seed) = 0;
 
+    /// Empties the film for the next picture of a chain: the seed stays, and so does what restir keeps from frame to frame, as long as the
+    /// sample indices go on too.
+    virtual void clear_film() { throw Error("--backend " + backend() + ": begins every picture anew"); }
+
     /// Goes on with another moment of its scene: `moment` is what it was made from, after pack_moment, or a copy with the same meshes.
     /// Takes only what moves. Film and seed stay; restart begins a new picture. The CPU panel refers to `moment` from then on, and to
     /// the meshes of the first. Throws Error where the counts differ.
@@ -58,6 +73,12 @@ public:
 
     /// Seconds the device itself worked on `render` calls so far: timestamps on a GPU, wall clock on the CPU.
     virtual double device_seconds() const = 0;
+
+    /// Of these, each pass of ris or restir; empty for other integrators, or where the device has no clock.
+    virtual std::vector<PassTime> pass_times() const { return {}; }
+
+    /// From now on, after every pass. Throws Error where the backend cannot.
+    virtual void watch_reservoirs(ReservoirHook) { throw Error("--backend " + backend() + ": has no reservoirs"); }
 
     /// A copy of what has been accumulated.
     virtual Film film() const = 0;

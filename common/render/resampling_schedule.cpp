@@ -16,6 +16,25 @@ bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants
     return constants.integrator >= shared::INTEGRATOR_RIS;
 }
 
+std::uint32_t resulting_set(const ResamplingStep& step) {
+    return step.stage == ResamplingStage::spatial ? step.pass.other_reservoirs : step.pass.reservoirs;
+}
+
+std::vector<std::string> pass_names(const shared::RenderConstants& constants) {
+    if (!needs_stage(ResamplingStage::candidates, constants)) {
+        return {};
+    }
+    std::vector<std::string> names{"candidates"};
+    if (needs_stage(ResamplingStage::temporal, constants)) {
+        names.emplace_back("temporal");
+    }
+    for (std::uint32_t i = 0; needs_stage(ResamplingStage::spatial, constants) && i < constants.resampling.spatial_passes; ++i) {
+        names.push_back("spatial " + std::to_string(i + 1));
+    }
+    names.emplace_back("shade");
+    return names;
+}
+
 ResamplingSets resampling_sets(const shared::RenderConstants& constants) {
     if (!needs_stage(ResamplingStage::candidates, constants)) {
         return {};
@@ -47,20 +66,22 @@ std::vector<ResamplingStep> ResamplingSchedule::next_frame(std::uint32_t frame) 
     pass.has_history = follows ? 1 : 0;
     pass.reservoirs = current;
     std::vector<ResamplingStep> steps{{ResamplingStage::candidates, pass}};
-    if (follows && needs_stage(ResamplingStage::temporal, constants_)) {
+    const bool temporal = needs_stage(ResamplingStage::temporal, constants_);
+    if (follows && temporal) {
         pass.other_reservoirs = history_;
-        steps.push_back({ResamplingStage::temporal, pass});
+        steps.push_back({ResamplingStage::temporal, pass, 1});
     }
+    std::size_t place = temporal ? 2 : 1;
     const bool spatial = needs_stage(ResamplingStage::spatial, constants_);
     for (std::uint32_t i = 0; spatial && i < constants_.resampling.spatial_passes; ++i) {
         pass.iteration = i;
         pass.reservoirs = current;
         pass.other_reservoirs = 1 - current;
-        steps.push_back({ResamplingStage::spatial, pass});
+        steps.push_back({ResamplingStage::spatial, pass, place++});
         current = 1 - current;
     }
     pass.reservoirs = current;
-    steps.push_back({ResamplingStage::shade, pass});
+    steps.push_back({ResamplingStage::shade, pass, place});
     history_ = current;
     has_history_ = true;
     last_frame_ = frame;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "resampling_memory.h"
@@ -14,7 +15,14 @@ enum class ResamplingStage { candidates, temporal, spatial, shade };
 struct ResamplingStep {
     ResamplingStage stage;
     shared::ResamplingPass pass;
+    std::size_t place = 0;  // in pass_names
 };
+
+/// The set of reservoirs that holds what the step left.
+std::uint32_t resulting_set(const ResamplingStep& step);
+
+/// The passes of a frame, in order: "candidates", "temporal", "spatial 1", ..., "shade"; none for integrators that do not resample.
+std::vector<std::string> pass_names(const shared::RenderConstants& constants);
 
 /// Whether any frame will run the stage; false for integrators that do not resample.
 bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants);

@@ -42,6 +42,9 @@ public:
         clear_film();
         if (resamples()) {
             reuse_ = ResamplingFilms(packed.constants);
+            for (const std::string& pass : pass_names(packed.constants)) {
+                passes_.push_back({pass});
+            }
         }
     }
 
@@ -74,6 +77,13 @@ public:
         clear_film();
     }
 
+    void clear_film() override {
+        const std::size_t pixels = static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height);
+        film_.pixels.assign(pixels, {});
+        film_.moments.assign((packed_->features & shared::FEATURE_STANDARD_ERROR) != 0 ? pixels : 0, {});
+        film_.first_hits.assign((packed_->features & shared::FEATURE_FIRST_HIT_LAYERS) != 0 ? pixels : 0, {});
+    }
+
     void move_to(const PackedScene& moment) override {
         arena_.execute([&] { scene_->move_to(moment); });
         const std::uint32_t seed = constants_.seed;
@@ -83,6 +93,8 @@ public:
     }
 
     double device_seconds() const override { return seconds_; }
+    std::vector<PassTime> pass_times() const override { return passes_; }
+    void watch_reservoirs(ReservoirHook hook) override { hook_ = std::move(hook); }
     Film film() const override { return film_; }
     TraversalBench bench_traversal(std::uint32_t samples) override;
 
@@ -94,13 +106,6 @@ public:
     }
 
 private:
-    void clear_film() {
-        const std::size_t pixels = static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height);
-        film_.pixels.assign(pixels, {});
-        film_.moments.assign((packed_->features & shared::FEATURE_STANDARD_ERROR) != 0 ? pixels : 0, {});
-        film_.first_hits.assign((packed_->features & shared::FEATURE_FIRST_HIT_LAYERS) != 0 ? pixels : 0, {});
-    }
-
     template <class Body>
     void for_tiles(const Body& body) const {
         const tbb::blocked_range2d<int> tiles(0, (film_.height + tile_size - 1) / tile_size, 1, 0,
@@ -170,6 +175,7 @@ private:
     /// One sample of every pixel, pass by pass. A frame is not cut short, or its reservoirs would be of two frames.
     void render_frame(Film& film, std::uint32_t frame) {
         for (const ResamplingStep& step : schedule_.next_frame(frame)) {
+            const Clock::time_point start = Clock::now();
             for_tiles([&](int tile_x, int tile_y) {
                 shared::CpuKernel<PlainTracer, ~0U> kernel{*packed_, constants_, {*scene_}, &reuse_};
                 for_pixels(film, tile_x, tile_y, [&](shared::uvec2 pixel, FilmEntry entry) {
@@ -190,6 +196,10 @@ private:
                     }
                 });
             });
+            passes_[step.place].seconds += seconds_since(start);
+            if (hook_) {
+                hook_(step, std::span(reuse_.reservoirs).subspan(resulting_set(step) * reuse_.pixels, reuse_.pixels));
+            }
         }
     }
 
@@ -227,6 +237,8 @@ private:
     Film film_;
     ResamplingFilms reuse_;
     ResamplingSchedule schedule_{constants_};
+    std::vector<PassTime> passes_;
+    ReservoirHook hook_;
     double build_seconds_ = 0;
     double seconds_ = 0;
 };
