@@ -23,12 +23,15 @@ constexpr const char* examples = R"(Examples:
   diptych compare picture.exr reference.exr
   diptych compare cpu.exr vulkan.exr -o difference.png
   diptych compare cpu.exr vulkan.exr --max-z 4 --max-relmse 0.01
+  diptych compare picture.exr reference.exr --minus picture-0.exr,reference-0.exr
 z is the difference of the means over its standard error, which EXR files carry in a layer; it means something only where
-the two were rendered with different seeds. The PNG shows A, B, and a heatmap of their relative difference.)";
+the two were rendered with different seeds. --minus takes something off both first: renders of --max-depth 0 with their seeds and
+samples leave the scattered light, without the noise of lamps that are seen directly. The PNG shows A, B, and a heatmap of their relative difference.)";
 
 struct Options {
     std::string a;
     std::string b;
+    std::vector<std::string> minus;  // empty, or one for each
     std::string output;
     double exposure = 0;
     std::string tonemap = "none";
@@ -101,6 +104,18 @@ void print_numbers(const Difference& difference) {
                difference.relmse, ratio[0], ratio[1], ratio[2], z[0], z[1], z[2]);
 }
 
+/// Standard errors are of the whole, and mean nothing of the rest.
+void subtract(const std::string& path, const std::string& from, LayeredImage& image) {
+    const LayeredImage part = read_image(path);
+    if (part.color.width != image.color.width || part.color.height != image.color.height) {
+        throw Error(fmt::format("--minus {}: is {}x{}, but {} is {}x{}", path, part.color.width, part.color.height, from,
+                                image.color.width, image.color.height));
+    }
+    std::transform(image.color.data.begin(), image.color.data.end(), part.color.data.begin(), image.color.data.begin(),
+                   std::minus<>());
+    image.standard_error.reset();
+}
+
 int run_compare(const Options& options) {
     if (!options.output.empty()) {
         check_writable(options.output);
@@ -109,18 +124,27 @@ int run_compare(const Options& options) {
         }
     }
     tonemap_from_name(options.tonemap);
-    const LayeredImage a = read_image(options.a);
-    const LayeredImage b = read_image(options.b);
+    LayeredImage a = read_image(options.a);
+    LayeredImage b = read_image(options.b);
     if (a.color.width != b.color.width || a.color.height != b.color.height) {
         throw Error(fmt::format("{}: is {}x{}, but {} is {}x{}", options.a, a.color.width, a.color.height, options.b,
                                 b.color.width, b.color.height));
+    }
+    if (!options.minus.empty()) {
+        subtract(options.minus[0], options.a, a);
+        subtract(options.minus[1], options.b, b);
+    }
+    const Difference difference = compare_images(a, b);
+    const Verdict verdict = judge(difference, a, b);
+    if (options.max_z && verdict.correlated) {
+        throw Error(fmt::format("{} and {}: --max-z wants pixels that know nothing of one another, and those of restir do: use "
+                                "verify, whose runs are independent",
+                                options.a, options.b));
     }
     if (options.max_z && !(a.standard_error && b.standard_error)) {
         throw Error(fmt::format("{}: --max-z wants a layer of standard errors, and there is none",
                                 a.standard_error ? options.b : options.a));
     }
-    const Difference difference = compare_images(a, b);
-    const Verdict verdict = judge(difference, a, b);
     if (verdict.same_random_numbers) {
         report_warning(fmt::format("{} and {}: rendered with one seed, so their noise is shared and z means nothing",
                                    options.a, options.b));
@@ -160,6 +184,9 @@ void add_compare(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
     command->add_option("a", options->a, "Image")->required();
     command->add_option("b", options->b, "Image that it is held against")->required();
+    command->add_option("--minus", options->minus, "Two images, taken off A and B before they are compared")
+        ->delimiter(',')
+        ->expected(2);
     command->add_option("-o,--output", options->output, "Figure to write, .png");
     command->add_option("--exposure", options->exposure, "EV of the figure")
         ->check(CLI::Range(-100.0, 100.0))

@@ -18,10 +18,10 @@ bool same_entry(const LayeredImage& a, const LayeredImage& b, const char* name) 
     return in_a != a.metadata.end() && in_b != b.metadata.end() && in_a->second == in_b->second;
 }
 
-/// Frames of restir reuse what those before them found.
+/// Pixels and frames of restir reuse what others found, and their pictures say so.
 bool is_correlated(const LayeredImage& image) {
-    const auto integrator = image.metadata.find("integrator");
-    return integrator != image.metadata.end() && integrator->second == "restir";
+    const auto correlated = image.metadata.find("correlated");
+    return correlated != image.metadata.end() && correlated->second == "yes";
 }
 
 /// How far the means are apart, in percent, over the channel where that is most.

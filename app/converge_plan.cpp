@@ -132,8 +132,7 @@ void check_converge_options(ConvergeOptions& options) {
         const Method method = parse_method("--methods", name, request);
         return method.request.backend != "oracle" && resamples(method.request.settings.integrator);
     });
-    names.request.settings.integrator = resampled ? Integrator::restir : Integrator::path;
-    refuse_idle_resampling_options(names);
+    refuse_idle_resampling_options(names, resampled);
     if (options.folder.empty()) {
         throw Error("-o: wants a folder for the results");
     }

@@ -29,8 +29,10 @@ constexpr const char* examples = R"(Examples:
   diptych render scene.gltf -o picture.exr --env studio.hdr --env-rotate 90 --camera Front --spp 1024
   diptych render scene.glb -o walk.####.exr --frames 96 --fps 24 --camera moving
   diptych render scene.glb -o around.png --frames 36 --orbit 10 --tonemap aces
+  diptych render scene.glb -o film.####.exr --frames 96 --integrator restir --spp 1 --warm-up 24
 A sequence plays the scene's animations from --start on, one file a frame: #### in the name is its number, else it goes
-before the extension. Frame i has the seed --seed + i. Each file's metadata repeats it alone.
+before the extension. Frame i has the seed --seed + i; with restir all have --seed, and each goes on from the one before. Each
+file's metadata repeats it alone.
 EXR holds linear colour, standard error, albedo, normal and depth, with metadata that repeats the render: the command is
 in the attribute diptych:command. PNG is tone mapped; HDR is linear. Ctrl-C saves the work so far and exits with 130.)";
 
@@ -42,6 +44,7 @@ struct Options {
     CLI::Option* fps_option = nullptr;
     CLI::Option* start_option = nullptr;
     CLI::Option* orbit_option = nullptr;
+    CLI::Option* warm_up_option = nullptr;
     bool layers = true;
     std::uint32_t sample_count = 0;
     bool json = false;
@@ -54,6 +57,9 @@ void check_options(Options& options) {
     resolve_oracle_mode(options.arguments);
     refuse_idle_resampling_options(options.arguments, resamples(settings.integrator));
     tonemap_from_name(request.tonemap);
+    if (options.warm_up_option->count() > 0 && !(request.backend != "oracle" && chains_frames(settings))) {
+        throw Error("--warm-up: goes with --integrator restir and --temporal, whose frames go on from one another");
+    }
     if (request.seconds > 0 || (request.target_error > 0 && options.spp_option->count() == 0)) {
         request.spp = 0;
     }
@@ -70,6 +76,12 @@ void check_options(Options& options) {
     } else if (options.fps_option->count() > 0) {
         throw Error("--fps: goes with --frames");
     }
+    if (request.seconds > 0 && chains_frames(settings) && request.frames + request.warm_up > 1) {
+        throw Error("--time: a chain of restir's frames repeats only if each has a known number of samples: give --spp");
+    }
+    if (chains_frames(settings) && static_cast<double>(request.warm_up) + request.frames > 4294967295.0 / std::max(request.spp, 1U)) {
+        throw Error("--frames: a chain of restir's frames has at most 4294967295 samples");
+    }
     check_writable(frame_path(request.output, 0, request.frames));
     const bool exr = image_format(request.output) == ImageFormat::Exr;
     if (!exr && options.layers && options.layers_option->count() > 0) {
@@ -78,7 +90,8 @@ void check_options(Options& options) {
     if (request.target_error > 0 && exr && !options.layers) {
         throw Error("--no-layers: --target-error keeps the standard errors, which are one of them");
     }
-    settings.standard_error = (exr && options.layers) || request.target_error > 0;
+    // Where frames go on from one another their spread says too little of the mean's error: better no layer than a wrong one.
+    settings.standard_error = ((exr && options.layers) || request.target_error > 0) && !chains_frames(settings);
     settings.first_hit_layers = exr && options.layers;
 }
 
@@ -91,8 +104,12 @@ int run_still(const Options& options, const Scene& scene) {
     const PackedScene packed = pack_scene(scene, request.settings);
     const std::unique_ptr<Renderer> renderer = make_renderer(scene, packed, request);
     InterruptGuard interrupt;
-    const Picture picture =
-        render_picture(*renderer, request, packed.features, interrupt.requested(), "", options.json);
+    if (request.warm_up > 0) {
+        renderer->render(0, request.warm_up, interrupt.requested());
+        renderer->clear_film();
+    }
+    const Picture picture = render_picture(*renderer, request, packed.features, interrupt.requested(), "", options.json,
+                                           {.first_sample = request.warm_up, .after_first = {}});
     if (options.json && picture.saved) {
         print_json(picture.json);
     }
@@ -146,6 +163,9 @@ void add_render(CLI::App& app, Run& run) {
     options->orbit_option =
         command->add_option("--orbit", request.orbit, "Degrees a frame that the camera turns about what it looks at")
             ->check(finite_number());
+    options->warm_up_option =
+        command->add_option("--warm-up", request.warm_up,
+                            "restir: frames that are rendered before the first, and not kept; without --frames, samples");
     add_integrator_option(*command, options->arguments);
     add_scene_options(*command, options->arguments);
     add_backend_options(*command, options->arguments);

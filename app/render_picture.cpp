@@ -72,6 +72,7 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
     json["features"] = feature_names(features);
     json["samples_per_second"] = static_cast<double>(totals.samples + totals.nonfinite) / seconds;
     json["rays_per_second"] = static_cast<double>(outcome.rays) / seconds;
+    json["correlated"] = request.backend != "oracle" && request.settings.integrator == Integrator::restir;
     json["estimated_relmse"] = relmse ? nlohmann::ordered_json(*relmse) : nlohmann::ordered_json();
     if (request.target_error > 0) {
         json["target_error"] = request.target_error;
@@ -79,7 +80,7 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
     }
     if (request.frames > 0) {
         json["frame"] = request.frame;
-        json["time"] = request.start;
+        json["time"] = shown_at(request);
     }
     json["command"] = repeat_command(request, outcome.spp);
     return json;
@@ -88,17 +89,20 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
 }  // namespace
 
 Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
-                       const std::atomic<bool>& cancel, const std::string& label, bool quiet) {
+                       const std::atomic<bool>& cancel, const std::string& label, bool quiet,
+                       const PictureChain& chain) {
     const double device_seconds = renderer.device_seconds();
     const std::vector<PassTime> passes_before = renderer.pass_times();
     ProgressiveResult result;
     {
         ProgressLine line(request.spp, label);
         ProgressiveTarget target;
+        target.first = chain.first_sample;
         target.spp = request.spp;
         target.seconds = request.seconds;
         target.relmse = request.target_error;
         ProgressiveHooks hooks;
+        hooks.after_first = chain.after_first;
         hooks.progress = [&](const Progress& progress) { line.show(progress); };
         result = render_progressively(renderer, target, cancel, hooks);
     }

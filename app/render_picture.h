@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -16,9 +17,16 @@ struct Picture {
     bool interrupted = false;
 };
 
+/// A picture's place in a chain of them, each of which goes on from the one before.
+struct PictureChain {
+    std::uint32_t first_sample = 0;
+    std::function<void()> after_first;  // of its samples, where another follows
+};
+
 /// Renders until the request's samples or seconds are reached or `cancel` is set, writes request.output and says so on stdout unless
 /// `quiet`. `label` stands before the progress line. Throws Error.
 Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
-                       const std::atomic<bool>& cancel, const std::string& label, bool quiet);
+                       const std::atomic<bool>& cancel, const std::string& label, bool quiet,
+                       const PictureChain& chain = {});
 
 }  // namespace diptych::app

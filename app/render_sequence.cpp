@@ -50,6 +50,21 @@ double now() {
 
 }  // namespace
 
+namespace {
+
+/// What render_picture does to the renderer.
+void render_unseen(Renderer& renderer, const PictureChain& chain, std::uint32_t spp, const std::atomic<bool>& cancel) {
+    renderer.render(chain.first_sample, 1, cancel);
+    if (spp > 1) {
+        if (chain.after_first) {
+            chain.after_first();
+        }
+        renderer.render(chain.first_sample + 1, spp - 1, cancel);
+    }
+}
+
+}  // namespace
+
 std::string frame_path(const std::string& output, std::uint32_t frame, std::uint32_t frames) {
     const std::size_t name = output.find_last_of('/') == std::string::npos ? 0 : output.find_last_of('/') + 1;
     const std::size_t last = output.find_last_of('#');
@@ -68,7 +83,9 @@ std::string frame_path(const std::string& output, std::uint32_t frame, std::uint
     return output.substr(0, end) + fmt::format(".{:04}", frame) + output.substr(end);
 }
 
-int render_sequence(Scene scene, const RenderRequest& request, bool json) {
+int render_sequence(Scene scene, RenderRequest request, bool json) {
+    const bool chained = request.backend != "oracle" && chains_frames(request.settings);
+    request.settings.moves = chained && (moves(scene) || request.orbit != 0);
     // At rest first: origin and radius then depend on no frame.
     PackedScene packed = pack_scene(scene, request.settings);
     Moments moments(scene, request);
@@ -76,29 +93,53 @@ int render_sequence(Scene scene, const RenderRequest& request, bool json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     InterruptGuard interrupt;
     bool interrupted = false;
-    for (std::uint32_t i = 0; i < request.frames && !interrupted; ++i) {
-        RenderRequest frame = request;
-        frame.output = frame_path(request.output, i, request.frames);
-        frame.frames = 1;
-        frame.frame = i;
-        frame.start = request.start + i / request.fps;
-        frame.settings.seed = request.settings.seed + i;
-        const double begin = now();
-        moments.show(frame.start);
+    const auto show = [&](double seconds) {
+        moments.show(seconds);
         pack_moment(scene, request.settings, packed);
         const double packed_at = now();
         renderer->move_to(packed);
-        renderer->restart(frame.settings.seed);
+        return packed_at;
+    };
+    for (std::uint32_t i = 0; i < request.warm_up + request.frames && !interrupted; ++i) {
+        RenderRequest frame = request;
+        if (chained) {
+            frame.warm_up = i;
+        } else {
+            frame.start = request.start + i / request.fps;
+            frame.settings.seed = request.settings.seed + i;
+        }
+        const double begin = now();
+        const double packed_at = show(shown_at(frame));
+        PictureChain chain;
+        if (chained && i > 0) {
+            renderer->clear_film();
+        } else {
+            renderer->restart(frame.settings.seed);
+        }
+        if (chained) {
+            chain.first_sample = i * request.spp;
+        }
+        if (request.settings.moves) {
+            // The frame's other samples look back to this same moment.
+            chain.after_first = [&] { show(shown_at(frame)); };
+        }
         const double moved_at = now();
-        const std::string label = fmt::format("frame {}/{}  ", i + 1, request.frames);
-        Picture picture =
-            render_picture(*renderer, frame, packed.features, interrupt.requested(), label, json);
-        interrupted = picture.interrupted;
+        if (i < request.warm_up) {
+            render_unseen(*renderer, chain, request.spp, interrupt.requested());
+            interrupted = interrupt.requested();
+            continue;
+        }
+        frame.output = frame_path(request.output, i - request.warm_up, request.frames);
+        frame.frames = 1;
+        frame.frame = i - request.warm_up;
+        const std::string label = fmt::format("frame {}/{}  ", frame.frame + 1, request.frames);
+        Picture picture = render_picture(*renderer, frame, packed.features, interrupt.requested(), label, json, chain);
         if (picture.saved) {
             picture.json["pack_seconds"] = packed_at - begin;
             picture.json["move_seconds"] = moved_at - packed_at;
             list.push_back(std::move(picture.json));
         }
+        interrupted = picture.interrupted;
     }
     if (json) {
         print_json(list);

@@ -15,6 +15,6 @@ std::string frame_path(const std::string& output, std::uint32_t frame, std::uint
 
 /// Renders request.frames pictures of one renderer, moved from moment to moment; prints a line each, or with `json` one list. Returns the
 /// exit code; an interrupt leaves what is finished and saves the frame it met. Throws Error.
-int render_sequence(Scene scene, const RenderRequest& request, bool json);
+int render_sequence(Scene scene, RenderRequest request, bool json);
 
 }  // namespace diptych::app

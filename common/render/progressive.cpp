@@ -122,6 +122,9 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
         if (batch == 0) {
             return result;
         }
+        if (result.spp == 1 && hooks.after_first) {
+            hooks.after_first();
+        }
         const double begin = now();
         renderer.render(target.first + result.spp, batch, cancel);
         last_seconds = now() - begin;

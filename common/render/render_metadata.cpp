@@ -112,6 +112,9 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
         add_option(command, "--fps", request.fps);
         add_option(command, "--start", request.start);
     }
+    if (request.warm_up > 0) {
+        add_option(command, "--warm-up", request.warm_up);
+    }
     if (request.orbit != 0) {
         add_option(command, "--orbit", request.orbit);
     }
@@ -154,6 +157,8 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
         add("sample_count", settings.sample_count);
         add("mis", name_of(settings.mis));
         add("generic", yes_or_no(settings.generic));
+        add("warm_up", request.warm_up);
+        add("correlated", yes_or_no(settings.integrator == Integrator::restir));
     }
     add("spp", outcome.spp);
     add("width", settings.width);
@@ -170,7 +175,7 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("focus_distance", request.focus_distance ? fmt::format("{}", *request.focus_distance) : "");
     if (request.frames > 0) {
         add("frame", request.frame);
-        add("time", request.start);
+        add("time", shown_at(request));
         add("fps", request.fps);
         add("orbit", request.orbit);
     }

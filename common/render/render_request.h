@@ -33,9 +33,13 @@ struct RenderRequest {
     std::uint32_t frames = 0;  // of a sequence; 0 is one picture of the scene at rest
     std::uint32_t frame = 0;   // which of them this is, for what a picture says of itself
     double fps = 24;
-    double start = 0;  // seconds, of the first frame
+    double start = 0;  // seconds, of the first frame, kept or not
+    std::uint32_t warm_up = 0;  // frames before the first that is kept; of one picture at rest: samples
     double orbit = 0;  // degrees a frame that the camera turns: degrees * fps * time in all
     RenderSettings settings;
 };
+
+/// Seconds of the scene's animations at which the request's first kept frame stands.
+inline double shown_at(const RenderRequest& request) { return request.start + request.warm_up / request.fps; }
 
 }  // namespace diptych

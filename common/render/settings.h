@@ -46,4 +46,9 @@ struct RenderSettings {
     ResamplingSettings resampling;
 };
 
+/// Whether frames reuse what those before them found, so that they go on from one another and their samples depend on one another.
+inline bool chains_frames(const RenderSettings& settings) {
+    return settings.integrator == Integrator::restir && settings.resampling.temporal;
+}
+
 }  // namespace diptych

@@ -115,3 +115,28 @@ TEST_CASE("compare refuses what cannot be compared", "[app]") {
     write_exr(folder.file("wide.exr"), wide);
     check_refusal(run_diptych(folder, {"compare", a, folder.file("wide.exr")}), 2, {"wide.exr", "33x32", "32x32"});
 }
+
+TEST_CASE("compare --minus takes a part off both pictures first", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const auto render = [&](const std::string& name, const std::string& depth, const std::string& seed) {
+        REQUIRE(run_diptych(folder, {"render", scene, "-o", folder.file(name), "--size", "16", "--spp", "2", "--max-depth",
+                                     depth, "--seed", seed})
+                    .exit_code == 0);
+    };
+    render("a0.exr", "0", "1");
+    render("b0.exr", "0", "2");
+    render("a1.exr", "1", "1");
+    // Lamp less lamp is nothing, whatever their noise.
+    const ProcessResult same = run_diptych(folder, {"compare", folder.file("a0.exr"), folder.file("b0.exr"), "--minus",
+                                                    folder.file("a0.exr") + "," + folder.file("b0.exr"), "--json"});
+    INFO(same.err);
+    REQUIRE(same.exit_code == 0);
+    CHECK(nlohmann::json::parse(same.out).at("mse") == 0);
+    const ProcessResult rest = run_diptych(folder, {"compare", folder.file("a1.exr"), folder.file("a0.exr"), "--minus",
+                                                    folder.file("a0.exr") + "," + folder.file("a0.exr"), "--json"});
+    CHECK(nlohmann::json::parse(rest.out).at("mse") > 0);
+    check_refusal(run_diptych(folder, {"compare", folder.file("a1.exr"), folder.file("a0.exr"), "--max-z", "4", "--minus",
+                                       folder.file("a0.exr") + "," + folder.file("a0.exr")}),
+                  2, {"--max-z"});
+}

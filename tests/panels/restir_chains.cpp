@@ -1,0 +1,28 @@
+// The chains of tests/restir on the device.
+#include "../restir/chain_cases.h"
+#include "vulkan_device.h"
+#include "vulkan_renderer.h"
+
+namespace diptych::tests {
+namespace {
+
+std::unique_ptr<Renderer> on_vulkan(const PackedScene& packed) { return make_vulkan_renderer(packed, {}); }
+
+}  // namespace
+
+TEST_CASE("Long chains of restir stay unbiased on the device", "[nightly]") {
+    NEED_VULKAN();
+    const ChainSize many{16, 64};
+    for (const ResamplingVisibility visibility : {ResamplingVisibility::shading, ResamplingVisibility::target}) {
+        std::vector<ChainCase> cases = moving_cases();
+        cases.push_back(chain_case("many lights", generated("many-lights", 300)));
+        cases.push_back(chain_case("slats", slats(false)));
+        cases.push_back(chain_case("cornell", generated("cornell")));
+        for (ChainCase& c : cases) {
+            c.settings.resampling.visibility = visibility;
+            check_frames(c, chain_frames, 2, many, on_vulkan);
+        }
+    }
+}
+
+}  // namespace diptych::tests
