@@ -15,9 +15,13 @@ FN uint pixel_index(uvec2 pixel) { return pixel.y * constants.size.x + pixel.x; 
 
 /// Whether a surface's lobe is narrow enough that sampling it finds light points which picking lights seldom does.
 FN bool wants_bsdf_candidate(IN(SurfaceBsdf) bsdf) {
-    return constants.resampling.bsdf_candidates != 0u && bsdf.parameters.alpha < 0.3f &&
+    return constants.resampling.bsdf_candidates != 0u && bsdf.parameters.alpha < 0.1f &&
            max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f;
 }
+
+/// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it by the square of
+/// the ratio: a point that others chose by the wide lobe would be a firefly now and then, where sampling the material finds none.
+FN bool wants_reuse(IN(SurfaceBsdf) bsdf) { return bsdf.parameters.alpha >= TARGET_ALPHA_MIN; }
 
 /// Light points picked by power, one kept in proportion to the target.
 FN Resampling resample_lights(IN(TargetSurface) surface, IN(Sampler) random) {
@@ -113,8 +117,11 @@ FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
         LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
         SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
         if ((material.flags & MATERIAL_UNLIT) == 0u && !bsdf_is_purely_delta(bsdf.parameters, features())) {
-            kept = pack_reuse_surface(surface.position, bsdf, wo);
-            TargetSurface target = unpack_reuse_surface(kept);
+            ReuseSurface packed = pack_reuse_surface(surface.position, bsdf, wo);
+            TargetSurface target = unpack_reuse_surface(packed);
+            if (wants_reuse(bsdf)) {
+                kept = packed;
+            }
             Resampling chosen = resample_lights(target, path.random);
             if (wants_bsdf_candidate(bsdf)) {
                 SeenBsdf seen = see_bsdf(bsdf, wo, features());

@@ -15,7 +15,7 @@ SHARED_BEGIN
 
 CONST float TARGET_COS_MIN = 1.0e-3f;        // floor of cosines to the shading normal; octahedral rounding is below 1e-4
 CONST float TARGET_COS_MIN_MAPPED = 0.1f;    // under a normal map light also comes by the tangent facet
-CONST float TARGET_ALPHA_MIN = 0.02f;        // narrower lobes are widened: rounding moves their peaks
+CONST float TARGET_ALPHA_MIN = 0.005f;       // narrower lobes are widened: rounding moves their peaks
 CONST uint REUSE_SURFACE_VALID = 1u;
 CONST uint REUSE_SURFACE_MAPPED = 2u;
 

@@ -1,12 +1,17 @@
 // The chains of tests/restir on the device.
 #include "../restir/chain_cases.h"
+#include "loader.h"
 #include "vulkan_device.h"
 #include "vulkan_renderer.h"
 
 namespace diptych::tests {
 namespace {
 
-std::unique_ptr<Renderer> on_vulkan(const PackedScene& packed) { return make_vulkan_renderer(packed, {}); }
+/// A driver that is unloaded and loaded again some thirty times in a process may refuse: one device stays open.
+std::unique_ptr<Renderer> on_vulkan(const PackedScene& packed) {
+    static const VulkanInstance held = open_instance(false);
+    return make_vulkan_renderer(packed, {});
+}
 
 }  // namespace
 

@@ -38,7 +38,7 @@ inline Scene slats(bool glossy) {
     scene.name = "slats";
     Material floor = diffuse_material(0.8F);
     if (glossy) {
-        floor = make_material("floor", glm::vec3(0.9F), 1, 0.35F);
+        floor = make_material("floor", glm::vec3(0.9F), 1, 0.3F);
     }
     const int floor_material = add_material(scene, floor);
     const int black = add_material(scene, diffuse_material(0));
