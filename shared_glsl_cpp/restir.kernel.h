@@ -117,10 +117,10 @@ FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
         LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
         SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
         if ((material.flags & MATERIAL_UNLIT) == 0u && !bsdf_is_purely_delta(bsdf.parameters, features())) {
-            ReuseSurface packed = pack_reuse_surface(surface.position, bsdf, wo);
-            TargetSurface target = unpack_reuse_surface(packed);
+            ReuseSurface described = pack_reuse_surface(surface.position, bsdf, wo);
+            TargetSurface target = unpack_reuse_surface(described);
             if (wants_reuse(bsdf)) {
-                kept = packed;
+                kept = described;
             }
             Resampling chosen = resample_lights(target, path.random);
             if (wants_bsdf_candidate(bsdf)) {
