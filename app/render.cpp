@@ -10,6 +10,7 @@
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
 #include "interrupt.h"
+#include "live_view.h"
 #include "render/settings_names.h"
 #include "render_picture.h"
 #include "render_sequence.h"
@@ -26,6 +27,7 @@ constexpr const char* examples = R"(Examples:
   diptych render scene.glb -o picture.png --backend vulkan --time 10 --size 1920x1080 --tonemap aces
   diptych render scene.gltf -o clean.exr --target-error 1e-3 --time 600
   diptych render scene.gltf -o truth.exr --backend oracle --spp 4096
+  diptych render scene.gltf -o picture.exr --time 60 --live localhost:14158
   diptych render scene.gltf -o picture.exr --env studio.hdr --env-rotate 90 --camera Front --spp 1024
   diptych render scene.glb -o walk.####.exr --frames 96 --fps 24 --camera moving
   diptych render scene.glb -o around.png --frames 36 --orbit 10 --tonemap aces
@@ -47,6 +49,7 @@ struct Options {
     CLI::Option* warm_up_option = nullptr;
     bool layers = true;
     std::uint32_t sample_count = 0;
+    std::string live;  // HOST:PORT
     bool json = false;
 };
 
@@ -95,7 +98,7 @@ void check_options(Options& options) {
     settings.first_hit_layers = exr && options.layers;
 }
 
-int run_still(const Options& options, const Scene& scene) {
+int run_still(const Options& options, const Scene& scene, LiveView* live) {
     const RenderRequest& request = options.arguments.request;
     if (moves(scene)) {
         report_warning(fmt::format("{}: its animations are not played, it is shown at rest: give --frames or --start",
@@ -108,7 +111,8 @@ int run_still(const Options& options, const Scene& scene) {
         renderer->render(0, request.warm_up, interrupt.requested());
         renderer->clear_film();
     }
-    const Picture picture = render_picture(*renderer, request, packed.features, interrupt.requested(), "", options.json,
+    const Picture picture = render_picture(*renderer, request, packed.features, interrupt.requested(),
+                                           {.label = "", .quiet = options.json, .live = live},
                                            {.first_sample = request.warm_up, .after_first = {}});
     if (options.json && picture.saved) {
         print_json(picture.json);
@@ -118,11 +122,12 @@ int run_still(const Options& options, const Scene& scene) {
 
 int run_render(Options options) {
     check_options(options);
+    const std::unique_ptr<LiveView> live = options.live.empty() ? nullptr : std::make_unique<LiveView>(options.live);
     const Scene scene = prepare_scene(options.arguments);
     if (options.arguments.request.frames > 0) {
-        return render_sequence(scene, options.arguments.request, options.json);
+        return render_sequence(scene, options.arguments.request, options.json, live.get());
     }
-    return run_still(options, scene);
+    return run_still(options, scene, live.get());
 }
 
 }  // namespace
@@ -177,6 +182,8 @@ void add_render(CLI::App& app, Run& run) {
         ->capture_default_str();
     options->layers_option = command->add_flag("--layers,!--no-layers", options->layers,
                                                "Write the layers beside colour; .exr only, on by default");
+    command->add_option("--live", options->live,
+                        "HOST:PORT of a running tev, to watch the picture grow in it; tev listens on 127.0.0.1:14158 by default");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     command->footer(examples);
     command->callback([options, &run] { run = [options] { return run_render(*options); }; });

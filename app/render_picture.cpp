@@ -6,6 +6,7 @@
 
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
+#include "live_view.h"
 #include "pack/features.h"
 #include "progress_line.h"
 #include "render/film_statistics.h"
@@ -18,10 +19,9 @@ namespace diptych::app {
 
 namespace {
 
-void save(const RenderRequest& request, LayeredImage layers, const RenderOutcome& outcome) {
+void save(const RenderRequest& request, const LayeredImage& layers) {
     switch (image_format(request.output)) {
     case ImageFormat::Exr:
-        layers.metadata = render_metadata(request, outcome);
         write_exr(request.output, layers);
         break;
     case ImageFormat::Png:
@@ -89,13 +89,12 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
 }  // namespace
 
 Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
-                       const std::atomic<bool>& cancel, const std::string& label, bool quiet,
-                       const PictureChain& chain) {
+                       const std::atomic<bool>& cancel, const PictureAudience& audience, const PictureChain& chain) {
     const double device_seconds = renderer.device_seconds();
     const std::vector<PassTime> passes_before = renderer.pass_times();
     ProgressiveResult result;
     {
-        ProgressLine line(request.spp, label);
+        ProgressLine line(request.spp, audience.label);
         ProgressiveTarget target;
         target.first = chain.first_sample;
         target.spp = request.spp;
@@ -104,6 +103,9 @@ Picture render_picture(Renderer& renderer, const RenderRequest& request, std::ui
         ProgressiveHooks hooks;
         hooks.after_first = chain.after_first;
         hooks.progress = [&](const Progress& progress) { line.show(progress); };
+        if (audience.live != nullptr) {
+            hooks.film = [&](const Film& film) { audience.live->show(request.output, develop(film).color); };
+        }
         result = render_progressively(renderer, target, cancel, hooks);
     }
     const Film film = renderer.film();
@@ -123,7 +125,12 @@ Picture render_picture(Renderer& renderer, const RenderRequest& request, std::ui
         report_error(fmt::format("{}: interrupted before the first sample; nothing to save", request.output));
         return picture;
     }
-    save(request, develop(film), outcome);
+    LayeredImage layers = develop(film);
+    layers.metadata = render_metadata(request, outcome);
+    save(request, layers);
+    if (audience.live != nullptr) {
+        audience.live->show(request.output, layers.color);
+    }
     picture.saved = true;
     if (totals.nonfinite > 0) {
         report_warning(fmt::format("{}: {} of {} samples were not finite, negative or beyond what is summed, and were dropped",
@@ -135,7 +142,7 @@ Picture render_picture(Renderer& renderer, const RenderRequest& request, std::ui
     }
     picture.json = to_json(request, outcome, renderer, totals, estimated_relmse(film), features,
                            renderer.device_seconds() - device_seconds, passes);
-    if (!quiet) {
+    if (!audience.quiet) {
         fmt::print("{}: {}x{}, {} spp in {:.2f} s on {}{}\n", request.output, film.width, film.height, outcome.spp,
                    outcome.seconds, outcome.device, outcome.interrupted ? ", interrupted" : "");
     }

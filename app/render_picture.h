@@ -23,10 +23,17 @@ struct PictureChain {
     std::function<void()> after_first;  // of its samples, where another follows
 };
 
-/// Renders until the request's samples or seconds are reached or `cancel` is set, writes request.output and says so on stdout unless
-/// `quiet`. `label` stands before the progress line. Throws Error.
+class LiveView;
+
+/// Who is told while it renders.
+struct PictureAudience {
+    std::string label;         // before the progress line
+    bool quiet = false;        // no line on stdout at the end
+    LiveView* live = nullptr;  // sees the picture now and then, and at the end
+};
+
+/// Renders until the request's samples or seconds are reached or `cancel` is set, writes request.output and says so. Throws Error.
 Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
-                       const std::atomic<bool>& cancel, const std::string& label, bool quiet,
-                       const PictureChain& chain = {});
+                       const std::atomic<bool>& cancel, const PictureAudience& audience, const PictureChain& chain = {});
 
 }  // namespace diptych::app

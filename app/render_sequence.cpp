@@ -83,7 +83,7 @@ std::string frame_path(const std::string& output, std::uint32_t frame, std::uint
     return output.substr(0, end) + fmt::format(".{:04}", frame) + output.substr(end);
 }
 
-int render_sequence(Scene scene, RenderRequest request, bool json) {
+int render_sequence(Scene scene, RenderRequest request, bool json, LiveView* live) {
     const bool chained = request.backend != "oracle" && chains_frames(request.settings);
     request.settings.moves = chained && (moves(scene) || request.orbit != 0);
     // At rest first: origin and radius then depend on no frame.
@@ -133,7 +133,8 @@ int render_sequence(Scene scene, RenderRequest request, bool json) {
         frame.frames = 1;
         frame.frame = i - request.warm_up;
         const std::string label = fmt::format("frame {}/{}  ", frame.frame + 1, request.frames);
-        Picture picture = render_picture(*renderer, frame, packed.features, interrupt.requested(), label, json, chain);
+        Picture picture = render_picture(*renderer, frame, packed.features, interrupt.requested(),
+                                         {.label = label, .quiet = json, .live = live}, chain);
         if (picture.saved) {
             picture.json["pack_seconds"] = packed_at - begin;
             picture.json["move_seconds"] = moved_at - packed_at;

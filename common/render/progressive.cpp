@@ -56,7 +56,7 @@ class FilmWatch {
 public:
     explicit FilmWatch(const std::function<double()>& now) : now_(now), next_(now() + look_interval) {}
 
-    void look(const Renderer& renderer, Progress& progress) {
+    void look(const Renderer& renderer, Progress& progress, const ProgressiveHooks& hooks) {
         const double begin = now_();
         if (begin < next_) {
             return;
@@ -64,6 +64,9 @@ public:
         const Film film = renderer.film();
         progress.relmse = estimated_relmse(film);
         progress.rays_per_second = static_cast<double>(film_totals(film).rays) / progress.seconds;
+        if (hooks.film) {
+            hooks.film(film);
+        }
         const double end = now_();
         next_ = end + std::max(look_interval, (end - begin) / look_share);
     }
@@ -143,7 +146,7 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
             const double until_error = std::max(0.0, (error.needed() - result.spp) * sample_seconds);
             progress.eta_seconds = std::min({until_spp, until_time, until_error});
             progress.samples_per_second = static_cast<double>(before.pixels.size()) / sample_seconds;
-            watch.look(renderer, progress);
+            watch.look(renderer, progress, hooks);
             hooks.progress(progress);
         }
         if (result.target_met) {

@@ -32,6 +32,7 @@ struct Progress {
 
 struct ProgressiveHooks {
     std::function<void(const Progress&)> progress;  // after every batch
+    std::function<void(const Film&)> film;          // what has grown, at every look
     std::function<void()> after_first;              // sample, where another follows
     std::function<double()> now;                    // seconds, for tests; the steady clock by default
 };
