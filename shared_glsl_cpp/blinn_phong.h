@@ -21,6 +21,7 @@ FN float blinn_phong_d(vec3 h, float alpha) {
     float cos2 = h.z * h.z;
     float log2_cos2 =
         cos2 < 0.5f ? log2_poly(max(cos2, 1.0e-30f)) : log1p_poly(-min(h.x * h.x + h.y * h.y, 0.75f)) * LOG2_E;
+    log2_cos2 = MUTANT(BLINN_PHONG_POW, log2_cos2, log2_poly(max(cos2, 1.0e-30f)));
     float power = exp2_poly(clamp(0.5f * n * log2_cos2, BLINN_PHONG_LEAST_LOG2, 0.0f));
     return h.z > 0.0f ? (n + 2.0f) * (0.5f * INV_PI) * power : 0.0f;
 }

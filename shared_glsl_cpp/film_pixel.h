@@ -54,8 +54,8 @@ FN void compensated_add(INOUT(vec3) sum, INOUT(vec3) compensation, vec3 x) {
     low.z += abs(sum.z) >= abs(x.z) ? from_sum.z : from_x.z;
     PRECISE vec3 high = t + low;
     PRECISE vec3 rest = low - (high - t);
-    sum = high;
-    compensation = rest;
+    sum = MUTANT(FILM_SUMS_PLAIN, high, t);
+    compensation = MUTANT(FILM_SUMS_PLAIN, rest, vec3(0.0f, 0.0f, 0.0f));
 }
 
 /// NaN, infinity or negative, by the bits: a compiler may fold `isnan` away.

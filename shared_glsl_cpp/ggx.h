@@ -11,6 +11,7 @@ SHARED_BEGIN
 FN float ggx_d(vec3 h, float alpha) {
     float a2 = alpha * alpha;
     float t = h.z * h.z * a2 + (h.x * h.x + h.y * h.y);
+    t = MUTANT(GGX_D_CANCELS, t, h.z * h.z * (a2 - 1.0f) + 1.0f);
     float r = alpha / t;
     return h.z > 0.0f ? INV_PI * r * r : 0.0f;
 }

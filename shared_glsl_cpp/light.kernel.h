@@ -137,6 +137,12 @@ FN bool is_behind(IN(EmissiveTriangle) light, vec3 reference) {
     return dot(light.vertex_0 - reference, light.front) >= 0.0f;
 }
 
+/// A point of the light, off its surface on the side that emits, or on the other.
+FN vec3 emitter_end(IN(EmissiveTriangle) light, vec3 point, bool behind) {
+    vec3 magnitude = abs(light.vertex_0) + abs(light.edge_1) + abs(light.edge_2);
+    return offset_ray(point, behind ? -light.front : light.front, magnitude);
+}
+
 /// A point of the light, as triangle_sampling.h picks it.
 FN TriangleSample sample_emitter_point(IN(EmissiveTriangle) light, vec3 reference, vec2 u) {
     PRECISE vec3 to_vertex_0 = light.vertex_0 - reference;
@@ -155,7 +161,7 @@ FN LightSample sample_emitter(IN(EmissiveTriangle) light, vec3 reference, IN(Tri
     s.radiance = emitter_radiance(light, t.barycentrics);
     s.pdf = MUTANT(NO_LIGHT_PICK_PDF, light.pmf, 1.0f) * t.pdf;
     vec3 end = MUTANT(SHADOW_RAY_TO_WRONG_LIGHT, point, load_emissive_triangles(0u).vertex_0);
-    s.end = offset_ray(end, is_behind(light, reference) ? -light.front : light.front);
+    s.end = emitter_end(light, end, is_behind(light, reference));
     return s;
 }
 

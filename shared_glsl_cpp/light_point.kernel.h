@@ -81,7 +81,7 @@ FN SeenLight see_emitter(IN(EmissiveTriangle) light, vec2 barycentrics, vec3 ref
     s.measure = light.double_area * abs(facing) * inverse * inverse * inverse;
     s.radiance = emitter_radiance(light, barycentrics);
     s.by_chance = !may_be_passed(light);
-    s.end = offset_ray(point, facing < 0.0f ? -light.front : light.front);
+    s.end = emitter_end(light, point, facing < 0.0f);
     return s;
 }
 

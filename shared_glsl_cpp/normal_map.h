@@ -1,6 +1,8 @@
 // Normals that fit the direction they are seen from, and the facets that stand for a normal map (Schüssler, Heitz,
 // Hanika and Dachsbacher 2017, Microfacet-based normal mapping): the mapped facet p, and upright on the surface the
-// tangent facet t, a perfect mirror, which closes the gap so that no light is lost to black. World space, unit vectors.
+// tangent facet t, a perfect mirror, which closes the gap so that no light is lost to black. Theirs follows light over a few facets
+// and drops the rest; here what p reflects leaves after one more mirror at most, so that a map takes no energy at any tilt
+// (docs/decisions/0007). World space, unit vectors.
 #ifndef NORMAL_MAP_H
 #define NORMAL_MAP_H
 
@@ -78,6 +80,28 @@ FN float mapped_masking(IN(MappedNormal) m, vec3 w) {
 /// Off the mirror of the tangent facet; its own inverse.
 FN vec3 mapped_reflect(IN(MappedNormal) m, vec3 w) {
     return normalize(w - 2.0f * dot(w, m.tangent) * m.tangent);
+}
+
+/// Off the mirror of the surface itself: how light leaves that the facet sent below; its own inverse.
+FN vec3 mapped_lift(IN(MappedNormal) m, vec3 w) {
+    return normalize(w - 2.0f * dot(w, m.normal) * m.normal);
+}
+
+/// Ways to leave: straight off the mapped facet, by the tangent one, by the surface.
+CONST uint MAPPED_EXITS = 3u;
+
+/// For what leaves along `wi`, above the surface: how the mapped facet sent it, and the share of that direction that goes this way.
+FN float mapped_exit(IN(MappedNormal) m, vec3 wi, uint exit, OUT(vec3) sent) {
+    if (exit == 0u) {
+        sent = wi;
+        return mapped_masking(m, wi);
+    }
+    if (exit == 1u) {
+        sent = mapped_reflect(m, wi);
+        return dot(wi, m.tangent) > 0.0f ? 1.0f - mapped_masking(m, sent) : 0.0f;
+    }
+    sent = mapped_lift(m, wi);
+    return dot(sent, m.facet) > 0.0f ? 1.0f : 0.0f;
 }
 
 SHARED_END

@@ -2,27 +2,21 @@
 #ifndef RAY_OFFSET_H
 #define RAY_OFFSET_H
 
-#include "compat.h"
+#include "elementary.h"
 
 SHARED_BEGIN
 
-/// One coordinate: a step of up to 256 ulps along the normal, or a fixed one close to zero, where ulps are too small.
-FN float offset_coordinate(float position, float normal) {
-    int step_ulps = int(256.0f * normal);
-    int bits = floatBitsToInt(position);
-    int sign = bits >> 31;  // -1 below zero, else 0
-    int stepped = bits + ((step_ulps ^ sign) - sign);
-    PRECISE float near_zero = position + normal * (1.0f / 65536.0f);
-    // Chosen by a mask: a CPU would guess.
-    int stays_near = ((bits & 0x7fffffff) - 0x3d000000) >> 31;  // -1 where |position| < 1/32, else 0
-    return intBitsToFloat((floatBitsToInt(near_zero) & stays_near) | (stepped & ~stays_near));
-}
+CONST float OFFSET_ULPS = 64.0f;       // of the sizes that were added up along the normal
+CONST float OFFSET_LEAST_ULPS = 2.0f;  // of the largest size: an axis-aligned wall through 0 has none along its normal
 
-/// The finite point moved off the surface, to the side that the unit normal points to (Waechter & Binder 2019, Ray
-/// Tracing Gems, chapter 6).
-FN vec3 offset_ray(vec3 position, vec3 geometric_normal) {
-    return vec3(offset_coordinate(position.x, geometric_normal.x), offset_coordinate(position.y, geometric_normal.y),
-                offset_coordinate(position.z, geometric_normal.z));
+/// The finite point moved off the surface, to the side that the unit normal points to. `magnitude` bounds, coordinate by coordinate,
+/// what was added up to make the point: that, and not how far from 0 the sum came to lie, says how much rounding there may be. So the
+/// step shrinks and grows with the scene (Waechter & Binder 2019, Ray Tracing Gems, chapter 6, take the point itself and a step for unit
+/// scenes near 0; bounds as Pharr, Jakob & Humphreys 2016, section 3.9).
+FN vec3 offset_ray(vec3 position, vec3 geometric_normal, vec3 magnitude) {
+    PRECISE float ulps = OFFSET_ULPS * dot(abs(geometric_normal), magnitude) + OFFSET_LEAST_ULPS * max_component(magnitude);
+    PRECISE vec3 moved = position + geometric_normal * (ulps * 1.1920929e-7f);
+    return MUTANT(RAYS_NOT_OFFSET, moved, position);
 }
 
 SHARED_END

@@ -45,6 +45,7 @@ struct Resampling {
     LightPoint point;
     float target;  // of the kept point
     float weight_sum;
+    float weight_lost;  // what rounding took from the sum: beyond 2^24 equal weights it would stand still
 };
 
 FN Resampling begin_resampling() {
@@ -52,6 +53,7 @@ FN Resampling begin_resampling() {
     s.point = no_light_point();
     s.target = 0.0f;
     s.weight_sum = 0.0f;
+    s.weight_lost = 0.0f;
     return s;
 }
 
@@ -60,7 +62,11 @@ FN void add_candidate(INOUT(Resampling) s, IN(LightPoint) point, float target, f
     if (!(target > MUTANT(TARGET_CUT_OFF, TARGET_MIN, 0.1f)) || !(w > 0.0f && w < INFINITE_DISTANCE)) {
         return;
     }
-    s.weight_sum += w;
+    PRECISE float added = w + s.weight_lost;
+    PRECISE float total = s.weight_sum + added;
+    PRECISE float lost = added - (total - s.weight_sum);  // Kahan 1965
+    s.weight_sum = total;
+    s.weight_lost = MUTANT(RESERVOIR_SUM_PLAIN, abs(lost) < INFINITE_DISTANCE, false) ? lost : 0.0f;
     if (u * s.weight_sum < w) {
         s.point = point;
         s.target = target;

@@ -117,7 +117,8 @@ FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
         LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
         SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
         if ((material.flags & MATERIAL_UNLIT) == 0u && !bsdf_is_purely_delta(bsdf.parameters, features())) {
-            ReuseSurface described = pack_reuse_surface(surface.position, bsdf, wo);
+            vec3 origin = offset_ray(surface.position, bsdf.geometric_normal, surface.magnitude);
+            ReuseSurface described = pack_reuse_surface(origin, bsdf, wo);
             TargetSurface target = unpack_reuse_surface(described);
             if (wants_reuse(bsdf)) {
                 kept = described;
@@ -125,7 +126,6 @@ FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
             Resampling chosen = resample_lights(target, path.random);
             if (wants_bsdf_candidate(bsdf)) {
                 SeenBsdf seen = see_bsdf(bsdf, wo, features());
-                vec3 origin = offset_ray(surface.position, bsdf.geometric_normal);
                 chosen = add_bsdf_candidate(chosen, target, bsdf, seen, origin, path.random, vertex.rays);
             }
             reservoir = end_resampling(chosen, 1.0f, MUTANT(CONFIDENCE_BY_SAMPLE, 1.0f, clamp(chosen.target, 0.1f, 10.0f)));

@@ -29,13 +29,12 @@ FN uint visibility_key(IN(LightPoint) y) {
 }
 
 FN bool is_light_occluded(IN(TargetSurface) s, IN(SeenLight) light, IN(LightPoint) y, uint moment) {
-    vec3 origin = offset_ray(s.position, s.geometric_normal);
-    vec3 direction = light.distant ? light.direction : light.end - origin;
+    vec3 direction = light.distant ? light.direction : light.end - s.position;
     float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
     if (feature(FEATURE_MOTION) && moment == MUTANT(REUSE_CURRENT_OCCLUDERS, MOMENT_PREVIOUS, NONE)) {
-        return trace_any_previous(origin, direction, t_max, visibility_key(y));
+        return trace_any_previous(s.position, direction, t_max, visibility_key(y));
     }
-    return trace_any(origin, direction, t_max, visibility_key(y));
+    return trace_any(s.position, direction, t_max, visibility_key(y));
 }
 
 /// The target without visibility, per uv.

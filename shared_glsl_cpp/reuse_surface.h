@@ -21,7 +21,7 @@ CONST uint REUSE_SURFACE_MAPPED = 2u;
 
 /// Packed: unit vectors octahedral, colours with a shared exponent.
 struct ReuseSurface {
-    vec3 position;
+    vec3 position;  // off the surface, where its rays start
     uint geometric_normal;
     uint normal;
     uint wo;

@@ -37,7 +37,7 @@ FN uint hash_combine(uint a, uint b) {
 
 /// [0, 1): the word's high 24 bits.
 FN float unit_float(uint bits) {
-    return float(bits >> 8) * 5.9604644775390625e-8f;
+    return MUTANT(UNIT_FLOAT_OF_ONE, float(bits >> 8) * 5.9604644775390625e-8f, float(bits) * 2.3283064365386963e-10f);
 }
 
 SHARED_END

@@ -8,6 +8,7 @@
 struct Surface {
     vec3 position;
     vec3 normal;       // geometric, unit, of the front face
+    vec3 magnitude;    // of what `position` was added up from, for offset_ray
     MeshPoint mesh;
     uint instance;
     uint emitter_slot; // into emitter_slots; NONE where the instance emits nothing
@@ -19,6 +20,12 @@ FN vec3 transform_vector(IN(Instance) i, vec3 v) {
                           i.row_1.x * v.x + i.row_1.y * v.y + i.row_1.z * v.z,
                           i.row_2.x * v.x + i.row_2.y * v.y + i.row_2.z * v.z);
     return w;
+}
+
+/// Bounds the terms of transform_point for points that are nowhere larger than `size`.
+FN vec3 transform_magnitude(IN(Instance) i, vec3 size) {
+    return vec3(dot(abs(xyz(i.row_0)), size) + abs(i.row_0.w), dot(abs(xyz(i.row_1)), size) + abs(i.row_1.w),
+                dot(abs(xyz(i.row_2)), size) + abs(i.row_2.w));
 }
 
 FN vec3 transform_point(IN(Instance) i, vec3 p) {
@@ -91,6 +98,7 @@ FN Surface load_surface(IN(Hit) hit, IN(Instance) instance, vec3 origin, vec3 di
     s.mesh = mesh_point(g, hit.primitive, barycentrics);
     PRECISE vec3 local = a + barycentrics.x * (b - a) + barycentrics.y * (c - a);
     s.position = transform_point(instance, local);
+    s.magnitude = transform_magnitude(instance, max(abs(a), max(abs(b), abs(c))));
     vec3 n = exact_cross(edge_1, edge_2);
     s.normal = normalize_or(instance.mirrored != 0u ? -n : n, -direction);
     s.instance = hit.instance;

@@ -55,8 +55,7 @@ FN BsdfSample bsdf_sample_in_frame(IN(BsdfParameters) p, IN(Frame) frame, vec3 w
     return r;
 }
 
-/// The mapped surface's f cos and pdf, summed over the paths o→p→i, o→p→t→i and o→t→p→i (Schüssler et
-/// al. 2017).
+/// The mapped surface's f cos and pdf: over both facets that wo may meet first, and all ways to leave.
 FN BsdfValue mapped_eval_pdf(IN(BsdfParameters) p, IN(MappedNormal) m, vec3 wo, vec3 wi, uint features) {
     BsdfValue sum;
     sum.value = vec3(0.0f, 0.0f, 0.0f);
@@ -66,23 +65,22 @@ FN BsdfValue mapped_eval_pdf(IN(BsdfParameters) p, IN(MappedNormal) m, vec3 wo, 
     }
     Frame frame = frame_from_normal(m.facet);
     float p_facet = mapped_facet_probability(m, wo);
-    float escape = mapped_masking(m, wi);
-    if (p_facet > 0.0f) {
-        BsdfValue direct = bsdf_eval_pdf_in_frame(p, frame, wo, wi, features);
-        sum.value += p_facet * escape * direct.value;
-        sum.pdf += p_facet * escape * direct.pdf;
-        if (dot(wi, m.tangent) > 0.0f) {
-            vec3 before = mapped_reflect(m, wi);
-            float caught = p_facet * (1.0f - mapped_masking(m, before));
-            BsdfValue twice = bsdf_eval_pdf_in_frame(p, frame, wo, before, features);
-            sum.value += caught * escape * twice.value;
-            sum.pdf += caught * twice.pdf;
+    for (uint exit = 0u; exit < MAPPED_EXITS; ++exit) {
+        vec3 sent;
+        float taken = mapped_exit(m, wi, exit, sent);
+        taken = MUTANT(NORMAL_MAP_LOSES, taken, exit == 2u ? 0.0f : taken);
+        for (uint first = 0u; first < 2u && taken > 0.0f; ++first) {
+            float share = first == 0u ? p_facet : 1.0f - p_facet;
+            if (share > 0.0f) {
+                vec3 seen_from = wo;
+                if (first == 1u) {
+                    seen_from = mapped_reflect(m, wo);
+                }
+                BsdfValue v = bsdf_eval_pdf_in_frame(p, frame, seen_from, sent, features);
+                sum.value += (share * taken) * v.value;
+                sum.pdf += share * taken * v.pdf;
+            }
         }
-    }
-    if (p_facet < 1.0f) {
-        BsdfValue twice = bsdf_eval_pdf_in_frame(p, frame, mapped_reflect(m, wo), wi, features);
-        sum.value += (1.0f - p_facet) * escape * twice.value;
-        sum.pdf += (1.0f - p_facet) * twice.pdf;
     }
     return sum;
 }
@@ -117,43 +115,39 @@ FN float surface_bsdf_pdf(IN(SurfaceBsdf) s, vec3 wo, vec3 wi, uint features) {
     return r.pdf;
 }
 
-/// Follows one of the three paths: u.x picks the lobe; u.y the facet and, stretched over what is left of it, whether a
-/// direction off the mapped facet is caught by the tangent one.
+/// Follows one path: u.x picks the lobe; u.y the facet that wo meets and, stretched over what is left of it, whether a direction off
+/// the mapped facet is caught by the tangent one.
 FN BsdfSample mapped_sample(IN(BsdfParameters) p, IN(MappedNormal) m, vec3 wo, vec2 u_lobe, vec2 u, uint features) {
     Frame frame = frame_from_normal(m.facet);
     float p_facet = mapped_facet_probability(m, wo);
     bool on_facet = u_lobe.y < p_facet;
+    float path = on_facet ? p_facet : 1.0f - p_facet;
+    float rest = (on_facet ? u_lobe.y : u_lobe.y - p_facet) / path;
     vec3 start = wo;
     if (!on_facet) {
         start = mapped_reflect(m, wo);
     }
     BsdfSample r = bsdf_sample_in_frame(p, frame, start, u_lobe.x, u, features);
-    float path = on_facet ? p_facet : 1.0f - p_facet;
-    float thinning = 1.0f;
     r.lobe |= on_facet ? FACET_MAPPED : FACET_TANGENT;
-    if (on_facet) {
+    if (!(dot(r.direction, m.normal) > 0.0f)) {
+        r.direction = mapped_lift(m, r.direction);
+        r.lobe |= FACET_MAPPED | FACET_TANGENT;
+    } else {
         float escape = mapped_masking(m, r.direction);
-        if (u_lobe.y < p_facet * escape) {
+        if (rest < escape) {
             path *= escape;
         } else {
             path *= 1.0f - escape;
-            r.lobe |= FACET_TANGENT;
+            r.lobe |= FACET_MAPPED | FACET_TANGENT;
             r.direction = mapped_reflect(m, r.direction);
-            thinning = mapped_masking(m, r.direction);
         }
-    } else {
-        thinning = mapped_masking(m, r.direction);
+    }
+    if (!(r.pdf > 0.0f) || !(dot(r.direction, m.normal) > COS_MIN)) {
+        return bsdf_null_sample();
     }
     if (r.delta != 0u) {
-        r.weight *= thinning;
         r.pdf *= path;
-        if (!(dot(r.direction, m.normal) > COS_MIN)) {
-            return bsdf_null_sample();
-        }
         return r;
-    }
-    if (!(r.pdf > 0.0f)) {
-        return bsdf_null_sample();
     }
     BsdfValue v = mapped_eval_pdf(p, m, wo, r.direction, features);
     if (!(v.pdf > 0.0f)) {

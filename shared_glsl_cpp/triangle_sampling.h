@@ -77,7 +77,8 @@ FN TriangleView triangle_view(vec3 to_vertex_0, vec3 e1, vec3 e2, vec3 normal, f
     view.inverse_lengths = vec3(inverse_a, inverse_b, inverse_c);
     view.height = height;
     view.double_area = double_area;
-    view.volume = (abs(height) * inverse_a) * (double_area * inverse_b * inverse_c);
+    view.volume = MUTANT(SOLID_ANGLE_BY_UNIT_VECTORS, (abs(height) * inverse_a) * (double_area * inverse_b * inverse_c),
+                         abs(dot(view.a, cross(view.b, view.c))));
     view.denominator = denominator;
     view.edge_ab = edge_ab;
     return view;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "compat.h"
 #include "pack/pack_parts.h"
 
 namespace diptych {
@@ -17,6 +18,22 @@ std::uint32_t append(std::vector<T>& buffer, const std::vector<T>& values, bool 
     return first;
 }
 
+/// Where a mesh's vertices lie, if that is so far from their own origin that its triangles would lose digits there; else 0. Differences
+/// of such vertices are exact.
+glm::dvec3 center_of(const Mesh& mesh) {
+    glm::dvec3 low(1e300);
+    glm::dvec3 high(-1e300);
+    for (const Primitive& primitive : mesh.primitives) {
+        for (const glm::vec3& p : primitive.positions) {
+            low = glm::min(low, glm::dvec3(p));
+            high = glm::max(high, glm::dvec3(p));
+        }
+    }
+    const glm::dvec3 middle = 0.5 * (low + high);
+    const bool far = glm::length(middle) > 8 * glm::length(0.5 * (high - low)) && high.x >= low.x;
+    return MUTANT(MESH_NOT_CENTRED, far, false) ? glm::dvec3(glm::vec3(middle)) : glm::dvec3(0);
+}
+
 }  // namespace
 
 void pack_meshes(const Scene& scene, PackedScene& packed) {
@@ -27,6 +44,8 @@ void pack_meshes(const Scene& scene, PackedScene& packed) {
     }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         MeshRange range{static_cast<std::uint32_t>(packed.geometries.size()), 0};
+        const glm::dvec3 center = center_of(scene.meshes[i]);
+        packed.mesh_centers.push_back(center);
         for (const Primitive& primitive : scene.meshes[i].primitives) {
             if (!used[i] || primitive.triangles.empty()) {
                 continue;
@@ -35,6 +54,9 @@ void pack_meshes(const Scene& scene, PackedScene& packed) {
             shared::Geometry g{};
             g.first_triangle = append(packed.triangles, primitive.triangles, true, scene, "triangles");
             g.first_vertex = append(packed.positions, primitive.positions, true, scene, "vertices");
+            for (std::size_t v = g.first_vertex; center != glm::dvec3(0) && v < packed.positions.size(); ++v) {
+                packed.positions[v] = glm::vec3(glm::dvec3(packed.positions[v]) - center);
+            }
             g.first_normal = append(packed.normals, primitive.normals, true, scene, "normals");
             const bool mapped = has(shared::FEATURE_NORMAL_MAPS) && material.normal_texture.texture != none;
             g.first_tangent = append(packed.tangents, primitive.tangents, mapped, scene, "tangents");
@@ -54,12 +76,13 @@ void pack_meshes(const Scene& scene, PackedScene& packed) {
     }
 }
 
-bool place_instance(const Instance& instance, const glm::dvec3& origin, shared::Instance& out) {
+bool place_instance(const Instance& instance, const glm::dvec3& origin, const glm::dvec3& center, shared::Instance& out) {
     const glm::dmat4& m = instance.object_to_world;
     const glm::dmat3 linear(m);
+    const glm::dvec3 moved = glm::dvec3(m[3]) - origin + linear * center;
     const double determinant = glm::determinant(linear);
     const double scale = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-    const auto row = [&](int r) { return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r] - origin[r])); };
+    const auto row = [&](int r) { return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], moved[r])); };
     out.row_0 = row(0);
     out.row_1 = row(1);
     out.row_2 = row(2);
@@ -76,7 +99,7 @@ void pack_instances(const Scene& scene, PackedScene& packed) {
             continue;
         }
         shared::Instance out{};
-        const bool shown = place_instance(instance, packed.origin, out);
+        const bool shown = place_instance(instance, packed.origin, packed.mesh_centers[static_cast<std::size_t>(instance.mesh)], out);
         if (!shown && instance.node == none) {
             packed.warnings.push_back(scene.name + ": instance \"" + instance.name +
                                       "\": its transform flattens it to nothing; left out");

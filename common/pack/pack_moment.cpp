@@ -29,7 +29,8 @@ std::vector<bool> move_instances(const Scene& scene, PackedScene& packed) {
     std::vector<bool> changed(packed.instances.size(), false);
     for (std::size_t i = 0; i < packed.instances.size(); ++i) {
         shared::Instance next = packed.instances[i];
-        const bool shown = place_instance(scene.instances[packed.scene_instances[i]], packed.origin, next);
+        const bool shown = place_instance(scene.instances[packed.scene_instances[i]], packed.origin,
+                                          packed.mesh_centers[packed.instance_meshes[i]], next);
         changed[i] = std::memcmp(&next, &packed.instances[i], sizeof next) != 0 ||
                      shown != (packed.instance_shown[i] != 0);
         packed.instances[i] = next;

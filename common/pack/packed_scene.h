@@ -48,6 +48,7 @@ struct PackedScene : shared::SceneBuffers {
     glm::dvec3 origin{0};                         // world space of the file minus this is ours
     double radius = 1;                            // of the scene as first packed, for picking probabilities
     double environment_luminance = 0;             // mean over the sphere
+    std::vector<glm::dvec3> mesh_centers;         // parallel to meshes: what was taken off their vertices
     std::vector<std::uint32_t> scene_instances;   // parallel to instances: index into Scene::instances
     std::vector<double> emitter_means;            // parallel to emissive_triangles: mean luminance of what they emit
     std::vector<double> light_powers;             // what light_table was built from

@@ -89,28 +89,33 @@ dvec3 evaluate(const Facets& f, const Bsdf& bsdf, const dvec3& o, const dvec3& i
         return evaluate(bsdf, f.g, o, i);
     }
     const double share = visible_share(f, o);
-    const double g1 = masking(f, i);
-    dvec3 value = share * evaluate(bsdf, f.p, o, i) * g1;
-    if (dot(i, f.t) > 0) {
-        const dvec3 before = flip_across(i, f.t);
-        value += share * (1 - masking(f, before)) * evaluate(bsdf, f.p, o, before) * g1;
+    const auto off_facet = [&](const dvec3& seen) {
+        dvec3 value = masking(f, i) * evaluate(bsdf, f.p, seen, i) + evaluate(bsdf, f.p, seen, flip_across(i, f.g));
+        if (dot(i, f.t) > 0) {
+            const dvec3 caught = flip_across(i, f.t);
+            value += (1 - masking(f, caught)) * evaluate(bsdf, f.p, seen, caught);
+        }
+        return value;
+    };
+    dvec3 value = share * off_facet(o);
+    if (share < 1) {
+        value += (1 - share) * off_facet(flip_across(o, f.t));
     }
-    return value + (1 - share) * evaluate(bsdf, f.p, flip_across(o, f.t), i) * g1;
+    return value;
 }
 
 Scattered sample(const Facets& f, const Bsdf& bsdf, const dvec3& o, bool only_mirror, Random& random) {
     Scattered drawn;
     if (f.is_flat()) {
         drawn = draw(f, bsdf, o, only_mirror, random);
-    } else if (random.uniform() < visible_share(f, o)) {
-        drawn = draw(f, bsdf, o, only_mirror, random);
-        if (drawn.weight != dvec3(0) && random.uniform() >= masking(f, drawn.i)) {
-            drawn.i = flip_across(drawn.i, f.t);
-            drawn.weight *= dot(drawn.i, f.t) > 0 ? masking(f, drawn.i) : 0.0;
-        }
     } else {
-        drawn = draw(f, bsdf, flip_across(o, f.t), only_mirror, random);
-        drawn.weight *= masking(f, drawn.i);
+        const bool meets_p = random.uniform() < visible_share(f, o);
+        drawn = draw(f, bsdf, meets_p ? o : flip_across(o, f.t), only_mirror, random);
+        if (dot(drawn.i, f.g) < 0) {
+            drawn.i = flip_across(drawn.i, f.g);
+        } else if (random.uniform() >= masking(f, drawn.i)) {
+            drawn.i = flip_across(drawn.i, f.t);
+        }
     }
     if (!leaves(f, drawn.i)) {
         drawn.weight = dvec3(0);
@@ -126,12 +131,12 @@ double density(const Facets& f, const Bsdf& bsdf, const dvec3& o, const dvec3& i
         return density(bsdf, f.g, o, i);
     }
     const double share = visible_share(f, o);
-    double sum = share * density(bsdf, f.p, o, i) * masking(f, i);
-    if (dot(i, f.t) > 0) {
-        const dvec3 before = flip_across(i, f.t);
-        sum += share * density(bsdf, f.p, o, before) * (1 - masking(f, before));
-    }
-    return sum + (1 - share) * density(bsdf, f.p, flip_across(o, f.t), i);
+    const auto off_facet = [&](const dvec3& seen) {
+        const double caught = dot(i, f.t) > 0 ? 1 - masking(f, flip_across(i, f.t)) : 0;
+        return masking(f, i) * density(bsdf, f.p, seen, i) + density(bsdf, f.p, seen, flip_across(i, f.g)) +
+               (caught > 0 ? caught * density(bsdf, f.p, seen, flip_across(i, f.t)) : 0);
+    };
+    return share * off_facet(o) + (share < 1 ? (1 - share) * off_facet(flip_across(o, f.t)) : 0);
 }
 
 }  // namespace diptych::oracle

@@ -19,6 +19,7 @@ FN void probe_reservoir(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_bits(o, s.point.light);
     put_bits(o, floatBitsToUint(s.target));
     put_relative(o, s.weight_sum);
+    put(o, s.weight_lost, s.weight_sum);
     Reservoir r = end_resampling(s, 0.5f, 3.0f);
     put_bits(o, r.point.light);
     put_relative(o, r.weight);

@@ -180,9 +180,8 @@ FN void probe_environment(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
 }
 
 FN void probe_ray_offset(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
-    put_same3(o, offset_ray(p.vertex, p.axis));
-    put_same3(o, offset_ray(p.edge_1, p.axis_2));
-    put_bits(o, floatBitsToUint(offset_coordinate(p.number, p.axis.x)));
+    put_same3(o, offset_ray(p.vertex, p.axis, abs(p.vertex) + abs(p.edge_2)));
+    put_same3(o, offset_ray(p.edge_1, p.axis_2, abs(p.edge_1)));
 }
 
 FN void probe_tonemap(IN(ProbeInput) p, INOUT(ProbeOutput) o) {

@@ -46,11 +46,20 @@ FN void probe_mapped_normal(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     }
     put(o, m.sine, probe_facet_turn_scale(p, m));
     put3(o, m.tangent, probe_tangent_scale(p, m));
-    put3(o, mapped_reflect(m, p.view), 2.0f * probe_tangent_scale(p, m));
+    put(o, mapped_reflect(m, p.view).y, 2.0f * probe_tangent_scale(p, m));
+    put(o, mapped_lift(m, p.view).x, 2.0f);
+    put_path(o, dot(mapped_lift(m, p.view), m.facet) > 0.0f);
+    put_path(o, dot(p.view, m.tangent) > 0.0f);
+    vec3 sent;
+    float exits = 0.0f;
+    for (uint exit = 0u; exit < MAPPED_EXITS; ++exit) {
+        exits += mapped_exit(m, p.view, exit, sent);
+    }
     float scale = probe_facet_turn_scale(p, m) * probe_mask_scale(m, p.view);
     put_path(o, dot(p.view, m.facet) > 0.0f);
     put(o, mapped_facet_probability(m, p.view), scale);
     put(o, mapped_masking(m, p.view), scale);
+    put(o, exits, 3.0f * (scale + probe_facet_turn_scale(p, m) * probe_mask_scale(m, mapped_reflect(m, p.view))));
 }
 
 FN SurfaceBsdf probe_surface(IN(ProbeInput) p) {
@@ -144,21 +153,22 @@ FN void probe_surface_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put(o, r.pdf, r.pdf * scale);
 }
 
-/// What the three paths over both facets carry at most, and how sharply.
+/// What the paths over both facets carry at most, and how sharply.
 FN BsdfValue probe_mapped_size(IN(BsdfParameters) b, IN(MappedNormal) m, vec3 wo, vec3 wi, uint features,
                                OUT(float) sharpness) {
     Frame frame = frame_from_normal(m.facet);
-    vec3 wo_turned = mapped_reflect(m, wo);
-    vec3 wi_turned = mapped_reflect(m, wi);
-    BsdfValue sum = bsdf_eval_pdf_in_frame(b, frame, wo, wi, features);
-    BsdfValue before = bsdf_eval_pdf_in_frame(b, frame, wo, wi_turned, features);
-    BsdfValue after = bsdf_eval_pdf_in_frame(b, frame, wo_turned, wi, features);
-    sum.value += before.value + after.value + b.diffuse;
-    sum.pdf += before.pdf + after.pdf + 1.0f;
-    vec3 o = to_local(frame, wo);
-    vec3 i = to_local(frame, wi);
-    sharpness = probe_moved_scale(b, o, i, features) + probe_moved_scale(b, o, to_local(frame, wi_turned), features) +
-                probe_moved_scale(b, to_local(frame, wo_turned), i, features);
+    BsdfValue sum;
+    sum.value = b.diffuse;
+    sum.pdf = 1.0f;
+    sharpness = 0.0f;
+    for (uint path = 0u; path < 6u; ++path) {
+        vec3 o = path < 3u ? wo : mapped_reflect(m, wo);
+        vec3 i = path % 3u == 0u ? wi : (path % 3u == 1u ? mapped_reflect(m, wi) : mapped_lift(m, wi));
+        BsdfValue v = bsdf_eval_pdf_in_frame(b, frame, o, i, features);
+        sum.value += v.value;
+        sum.pdf += v.pdf;
+        sharpness += probe_moved_scale(b, to_local(frame, o), to_local(frame, i), features);
+    }
     return sum;
 }
 
@@ -167,6 +177,7 @@ FN void put_mapped_path(INOUT(ProbeOutput) o, IN(MappedNormal) m, vec3 w) {
     put_path(o, dot(w, m.facet) > COS_MIN);
     put_path(o, dot(w, m.tangent) > 0.0f);
     put_path(o, dot(mapped_reflect(m, w), m.facet) > COS_MIN);
+    put_path(o, dot(mapped_lift(m, w), m.facet) > COS_MIN);
     put_path(o, dot(w, m.normal) > COS_MIN);
 }
 
@@ -217,7 +228,9 @@ FN void probe_mapped_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     bool specular = p.u.z < bsdf_specular_probability(b, start_local, features);
     put_path(o, specular);
     BsdfSample first = bsdf_sample_in_frame(b, frame, start, p.u.z, u, features);
-    put_path(o, p.u.w < p_facet * mapped_masking(m, first.direction));
+    float path = on_facet ? p_facet : 1.0f - p_facet;
+    put_path(o, dot(first.direction, m.normal) > 0.0f);
+    put_path(o, (on_facet ? p.u.w : p.u.w - p_facet) < path * mapped_masking(m, first.direction));
     BsdfSample r = mapped_sample(b, m, p.view, vec2(p.u.z, p.u.w), u, features);
     put_path(o, r.pdf > 0.0f);
     if (!(r.pdf > 0.0f)) {

@@ -144,20 +144,21 @@ TEST_CASE("offset_ray leaves the surface by little, at every scale") {
         for (uint i = 0; i < 2000; i++) {
             const vec3 n = normalize(sample_uniform_sphere(random_square(i)));
             const vec3 p = scale * sample_uniform_sphere(random_square(i + 7777));
-            const vec3 moved = offset_ray(p, n);
+            const vec3 moved = offset_ray(p, n, abs(p));
             const double along = double(dot(moved - p, n));
-            // 256 ulps of a coordinate, which are 2^-20 from 1/32 on, or 2^-16 near zero.
-            REQUIRE(along > 8e-7);
-            REQUIRE(along < 1e-4 * std::max(scale, 1.0f));
-            const vec3 back = offset_ray(p, -n);
+            // Of 64 ulps of the point, which rounding to it may change by one, at least 2 of its largest coordinate.
+            REQUIRE(along > 1e-7 * scale);
+            REQUIRE(along < 2e-5 * scale);
+            const vec3 back = offset_ray(p, -n, abs(p));
             REQUIRE(dot(back - p, n) < 0);
         }
     }
 }
 
-TEST_CASE("offset_ray's step is 256 ulps, or 2^-16 near zero") {
-    CHECK(offset_ray(vec3(1, -1, 0), vec3(1, 0, 0)) == vec3(1 + 256 * 0x1p-23f, -1, 0));
-    CHECK(offset_ray(vec3(1, -1, 0), vec3(0, 1, 0)) == vec3(1, -1 + 256 * 0x1p-24f, 0));
-    CHECK(offset_ray(vec3(1, -1, 0), vec3(0, -1, 0)) == vec3(1, -1 - 256 * 0x1p-23f, 0));
-    CHECK(offset_ray(vec3(1, -1, 0), vec3(0, 0, -1)) == vec3(1, -1, -0x1p-16f));
+TEST_CASE("offset_ray's step is 64 ulps of what was added up along the normal, and 2 of the largest") {
+    const vec3 sizes(1, 2, 0);
+    CHECK(offset_ray(vec3(1, -1, 0), vec3(1, 0, 0), sizes) == vec3(1 + 68 * 0x1p-23f, -1, 0));
+    CHECK(offset_ray(vec3(1, -1, 0), vec3(0, 1, 0), sizes) == vec3(1, -1 + 132 * 0x1p-23f, 0));
+    CHECK(offset_ray(vec3(1, -1, 0), vec3(0, -1, 0), sizes) == vec3(1, -1 - 132 * 0x1p-23f, 0));
+    CHECK(offset_ray(vec3(1, -1, 0), vec3(0, 0, -1), sizes) == vec3(1, -1, -4 * 0x1p-23f));
 }

@@ -190,30 +190,16 @@ TEST_CASE("A million directions off a mapped surface have the density that it st
     check_mapped_draws(1000000);
 }
 
-TEST_CASE("A mapped surface is reciprocal") {
-    Uniforms u(33);
-    double worst = 0.0;
-    for (int k = 0; k < 100000; ++k) {
-        const SurfaceBsdf s = mapped_surface(plastic(0.3f + 0.7f * u.next()), 80.0 * u.next(), 6.0 * u.next());
-        const vec3 wo = direction_at(1.0 - 0.99 * u.next(), 6.0 * u.next());
-        const vec3 wi = direction_at(1.0 - 0.99 * u.next(), 6.0 * u.next());
-        const double there = static_cast<double>(surface_bsdf_eval(s, wo, wi, all_features).x) / wi.z;
-        const double back = static_cast<double>(surface_bsdf_eval(s, wi, wo, all_features).x) / wo.z;
-        worst = std::max(worst, std::abs(there - back) / (std::max(there, back) + 1e-3));
-    }
-    CHECK(worst < 1e-3);
-}
-
-TEST_CASE("A tilted map neither makes light nor turns black") {
-    // Paths of three and more bounces between the facets are left out: the steeper the map, the more is lost.
+TEST_CASE("A tilted map neither makes light nor loses any") {
+    // What the facet alone reflects, of single bounces off GGX, is all there is to keep.
     struct Material {
         const char* name;
         BsdfParameters p;
         double least_mean[5];
     };
-    const Material materials[] = {{"diffuse", white_diffuse(), {0.99, 0.9, 0.7, 0.43, 0.14}},
-                                  {"rough metal", white_metal(0.3f), {0.94, 0.91, 0.6, 0.2, 0.015}},
-                                  {"mirror", white_metal(0.0f), {0.99, 0.94, 0.57, 0.17, 0.005}}};
+    const Material materials[] = {{"diffuse", white_diffuse(), {0.999, 0.999, 0.999, 0.999, 0.999}},
+                                  {"rough metal", white_metal(0.3f), {0.94, 0.94, 0.94, 0.94, 0.94}},
+                                  {"mirror", white_metal(0.0f), {0.999, 0.999, 0.999, 0.999, 0.999}}};
     float largest_weight = 0.0f;
     for (const Material& m : materials) {
         for (int k = 0; k < 5; ++k) {
@@ -236,7 +222,7 @@ TEST_CASE("A tilted map neither makes light nor turns black") {
             INFO(m.name << " tilt " << tilt << " mean " << mean << " least " << least);
             CHECK(mean > m.least_mean[k]);
             // Also where the mapped normal faces away from the eye.
-            CHECK((m.p.f0.x > 0.0f || tilt > 60.0 || least > 0.3));
+            CHECK(least > 0.8);
         }
     }
     CHECK(largest_weight < 1.01f);

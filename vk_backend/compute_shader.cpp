@@ -4,7 +4,7 @@
 
 #include "commands.h"
 
-namespace diptych::tests {
+namespace diptych {
 
 ComputeShader::ComputeShader(const Gpu& gpu, std::span<const std::uint32_t> spirv, std::uint32_t buffers) : gpu_(gpu) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
@@ -56,8 +56,8 @@ void ComputeShader::run(std::span<const Buffer* const> buffers, std::uint32_t co
 
 Buffer make_storage(const Gpu& gpu, std::uint64_t bytes) {
     using Usage = vk::BufferUsageFlagBits;
-    return make_buffer(gpu, "a test", bytes, Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst,
+    return make_buffer(gpu, "a compute shader", bytes, Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst,
                        MemoryKind::device);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych

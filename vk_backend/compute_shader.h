@@ -1,4 +1,4 @@
-// A compute shader over storage buffers, for tests that ask the device what a function gives.
+// A compute shader over storage buffers: asks the device what a function gives.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 #include "buffer.h"
 
-namespace diptych::tests {
+namespace diptych {
 
 class ComputeShader {
 public:
@@ -29,4 +29,4 @@ private:
 /// Device memory that a shader reads and writes and the host copies to and from.
 Buffer make_storage(const Gpu& gpu, std::uint64_t bytes);
 
-}  // namespace diptych::tests
+}  // namespace diptych
