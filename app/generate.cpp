@@ -30,11 +30,13 @@ struct Options {
 
 int list_scenes(bool json) {
     nlohmann::ordered_json names = nlohmann::ordered_json::array();
-    for (const SceneGenerator& generator : scene_generators()) {
+    std::vector<SceneGenerator> all(scene_generators().begin(), scene_generators().end());
+    all.insert(all.end(), extreme_scene_generators().begin(), extreme_scene_generators().end());
+    for (const SceneGenerator& generator : all) {
         if (json) {
             names.push_back({{"name", generator.name}, {"description", generator.description}});
         } else {
-            fmt::print("{:<14} {}\n", generator.name, generator.description);
+            fmt::print("{:<20} {}\n", generator.name, generator.description);
         }
     }
     if (json) {

@@ -28,6 +28,9 @@ struct SceneGenerator {
 /// All of them, in the order to list them.
 std::span<const SceneGenerator> scene_generators();
 
+/// Those at the extremes of numbers and files, of scenes/extremes: some overlap, some are broken, as no others are.
+std::span<const SceneGenerator> extreme_scene_generators();
+
 /// Throws Error, listing the names, where none is called `name`.
 GeneratedScene generate_scene(const std::string& name, const GenerateOptions& options = {});
 

@@ -26,6 +26,12 @@ void warn_count(Document& document, const std::string& object, std::size_t count
     }
 }
 
+/// Exactly: two vertices in one place, or all on a line.
+bool has_no_area(const std::vector<glm::vec3>& positions, const glm::uvec3& t) {
+    const glm::dvec3 a(positions[t.x]);
+    return glm::cross(glm::dvec3(positions[t.y]) - a, glm::dvec3(positions[t.z]) - a) == glm::dvec3(0);
+}
+
 void drop_bad_triangles(Document& document, Primitive& primitive, const std::string& object) {
     std::vector<glm::vec3>& positions = primitive.positions;
     const auto good = std::find_if(positions.begin(), positions.end(), is_finite<glm::vec3>);
@@ -36,6 +42,11 @@ void drop_bad_triangles(Document& document, Primitive& primitive, const std::str
     const auto dropped = static_cast<std::size_t>(primitive.triangles.end() - kept);
     primitive.triangles.erase(kept, primitive.triangles.end());
     warn_count(document, object, dropped, "triangles have a vertex that is not finite; dropped");
+    const auto flat = std::remove_if(primitive.triangles.begin(), primitive.triangles.end(),
+                                     [&](const glm::uvec3& t) { return has_no_area(positions, t); });
+    const auto flat_count = static_cast<std::size_t>(primitive.triangles.end() - flat);
+    primitive.triangles.erase(flat, primitive.triangles.end());
+    warn_count(document, object, flat_count, "triangles have no area; dropped");
     if (good != positions.end()) {
         std::replace_if(
             positions.begin(), positions.end(), [](glm::vec3 p) { return !is_finite(p); }, glm::vec3(*good));
