@@ -19,5 +19,6 @@ void add_bench(CLI::App& app, Run& run);
 void add_verify(CLI::App& app, Run& run);
 void add_replay(CLI::App& app, Run& run);
 void add_converge(CLI::App& app, Run& run);
+void add_stability(CLI::App& app, Run& run);
 
 }  // namespace diptych::app

@@ -47,6 +47,7 @@ int run_program(int argc, char** argv) {
     add_verify(app, run);
     add_replay(app, run);
     add_converge(app, run);
+    add_stability(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {

@@ -1,0 +1,113 @@
+// Shading normals and normal maps.
+#include <numbers>
+
+#include "case_parts.h"
+#include "references.h"
+
+namespace diptych::stability {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+MeasuredInput mapped_input(const dvec3& o, const dvec3& smooth, const dvec3& mapped, double roughness, double metallic) {
+    MeasuredInput p{};
+    take_vec3(p, 0, o);
+    take_vec3(p, 3, smooth);
+    take_vec3(p, 6, mapped);
+    p.x[9] = static_cast<float>(roughness);
+    p.x[10] = static_cast<float>(metallic);
+    return p;
+}
+
+/// Interpolated normals tilted so far: nothing may leave through the triangle, and sample, eval and pdf must agree.
+Measured measure_interpolated(Backend& backend, double degrees, Effort effort, bool mapped) {
+    Uniforms u(12);
+    std::vector<MeasuredInput> inputs(effort == Effort::quick ? 1024 : 16384);
+    const double tilt = degrees / 180 * pi;
+    for (MeasuredInput& p : inputs) {
+        const dvec3 normal = direction(std::cos(tilt), 2 * pi * u.next());
+        const dvec3 o = direction(std::pow(10.0, -6 * u.next()), 2 * pi * u.next());
+        p = mapped_input(o, mapped ? dvec3(0, 0, 1) : normal, normal, 0.3 + 0.7 * u.next(), u.next() < 0.5 ? -1 : 1);
+        p.n[0] = mapped ? 1 : 0;
+        for (std::size_t k = 11; k < 15; ++k) {
+            p.x[k] = static_cast<float>(u.next());
+        }
+    }
+    const std::vector<MeasuredOutput> outputs = backend.run(Function::mapped_surface, inputs);
+    Measured m;
+    m.evaluations = inputs.size();
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const MeasuredOutput& o = outputs[i];
+        const std::string where = fmt::format("view cos {:.3g}, roughness {:.3f}", inputs[i].x[2], inputs[i].x[9]);
+        worsen(m, std::isfinite(o.y[3]) && o.y[3] >= 0 && o.y[4] >= 0 ? 0.0 : NAN, where);
+        if (o.y[4] > 0 && o.n[0] == 0) {
+            worsen(m, o.y[2] > 0 ? 0.0 : 1.0, "below the triangle");
+            worsen(m, relative_error(double{o.y[3]} * double{o.y[4]}, double{o.y[5]}, 1e-30), where);
+            worsen(m, relative_error(double{o.y[6]}, double{o.y[4]}), where);
+        }
+    }
+    return m;
+}
+
+/// What a white sky makes of a tilted map: the facet's own albedo, whatever the tilt.
+Measured measure_map_energy(Backend& backend, double degrees, Effort effort, double roughness, double metallic) {
+    const int side = effort == Effort::quick ? 32 : 128;
+    const double tilt = degrees / 180 * pi;
+    const dvec3 facet = direction(std::cos(tilt), 0.45);
+    Measured m;
+    for (const double view : {0.0, 30.0, 60.0, 80.0, 89.0}) {
+        for (const double azimuth : {0.0, pi / 2, pi}) {
+            std::vector<MeasuredInput> inputs;
+            Uniforms u(13);
+            for (int k = 0; k < side * side; ++k) {
+                MeasuredInput p = mapped_input(direction(std::cos(view / 180 * pi), 0.45 + azimuth), {0, 0, 1}, facet,
+                                               roughness, metallic);
+                p.x[11] = static_cast<float>(u.next());
+                p.x[12] = static_cast<float>(u.next());
+                p.x[13] = static_cast<float>((k % side + 0.5) / side);
+                p.x[14] = static_cast<float>((k / side + 0.5) / side);
+                p.n[0] = 1;
+                inputs.push_back(p);
+            }
+            double sum = 0;
+            for (const MeasuredOutput& o : backend.run(Function::mapped_surface, inputs)) {
+                sum += double{o.y[3]};
+            }
+            m.evaluations += inputs.size();
+            const double albedo = sum / static_cast<double>(inputs.size());
+            const dvec3 o = given_vec3(inputs[0], 0);
+            // The tangent facet shows the mapped one from its mirror image.
+            const dvec3 across = facet - facet.z * dvec3(0, 0, 1);
+            const double sine = length(across);
+            const dvec3 t = sine > 0 ? -across / sine : dvec3(1, 0, 0);
+            const double p = std::max(dot(o, facet), 0.0);
+            const double share = p > 0 ? p / (p + std::max(dot(o, t), 0.0) * sine) : 0;
+            const dvec3 turned = o - 2 * dot(o, t) * t;
+            const auto of_facet = [&](const dvec3& w) {
+                return metallic < 0 ? 1.0 : ggx_albedo(std::min(dot(w, facet), 1.0), roughness * roughness);
+            };
+            const double truth = (share > 0 ? share * of_facet(o) : 0) + (share < 1 ? (1 - share) * of_facet(turned) : 0);
+            worsen(m, std::abs(albedo - truth), fmt::format("view {:g}, azimuth {:.2f}: {:.4f}", view, azimuth, albedo));
+        }
+    }
+    return m;
+}
+
+}  // namespace
+
+void add_surface_cases(std::vector<Case>& cases) {
+    const Range tilts{"degrees", 0, 89, false, 4, 90};
+    cases.push_back({"shading normals", "sample, eval and pdf agree under interpolated normals", tilts, 1e-4, "relative",
+                     [](Backend& b, double tilt, Effort e) { return measure_interpolated(b, tilt, e, false); }});
+    cases.push_back({"shading normals", "energy of a white diffuse surface under a tilted map",
+                     {"degrees", 0, 85, false, 3, 18}, 1e-4, "absolute",
+                     [](Backend& b, double tilt, Effort e) { return measure_map_energy(b, tilt, e, 1, -1); }});
+    cases.push_back({"shading normals", "energy of a rough metal under a tilted map", {"degrees", 0, 85, false, 2, 18}, 0.02,
+                     "absolute",
+                     [](Backend& b, double tilt, Effort e) { return measure_map_energy(b, tilt, e, 0.5, 1); }});
+    cases.push_back({"shading normals", "sample, eval and pdf agree under normal maps", tilts, 1e-3, "relative",
+                     [](Backend& b, double tilt, Effort e) { return measure_interpolated(b, tilt, e, true); }});
+}
+
+}  // namespace diptych::stability
