@@ -170,6 +170,23 @@ Measured measure_distance(Backend& backend, double offset, Effort effort) {
     return judge_mean(render(backend, scene, settings, spp_of(effort)), 0.25 * (1 - std::pow(0.5, 4)) / 0.5);
 }
 
+/// A furnace whose vertices are that far from their mesh's origin.
+Measured measure_vertex_distance(Backend& backend, double offset, Effort effort) {
+    Scene scene;
+    scene.name = "far vertices";
+    Material glow = diffuse(0.5F);
+    glow.emission = glm::vec3(0.25F);
+    add_material(scene, glow);
+    const dvec3 middle(offset, 0.3 * offset, -0.7 * offset);
+    Primitive walls = room(glm::vec3(-1), glm::vec3(1), 0);
+    bake(walls, translation(middle.x, middle.y, middle.z) * askew());
+    add_object(scene, "room", {walls});
+    add_camera(scene, middle + dvec3(0.1, 0.2, 0.5), middle + dvec3(0, -0.1, -1), 60);
+    RenderSettings settings = settings_of(side_of(effort), side_of(effort), 3);
+    settings.integrator = Integrator::brdf;
+    return judge_mean(render(backend, scene, settings, spp_of(effort)), 0.25 * (1 - std::pow(0.5, 4)) / 0.5);
+}
+
 /// A square lamp cut into needles of so many to one, with triangles of no area strewn in.
 Measured measure_needle_lamp(Backend& backend, double aspect, Effort effort) {
     Scene scene;
@@ -217,6 +234,8 @@ void add_ray_cases(std::vector<Case>& cases) {
                      {"aspect", 32, 1e6, true, 2, 6}, 3e-3, "relative", measure_needle_lamp});
     cases.push_back({"huge coordinates", "a furnace far from the origin", {"offset", 1, 1e7, true, 2, 8}, 1e-5, "relative",
                      measure_distance});
+    cases.push_back({"huge coordinates", "a furnace whose vertices are far from their origin", {"offset", 1, 1e5, true, 2, 6},
+                     1e-5, "relative", measure_vertex_distance});
 }
 
 }  // namespace diptych::stability

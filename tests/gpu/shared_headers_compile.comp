@@ -34,7 +34,7 @@ void main() {
     camera_ray(camera, u, sample_2d(s, DIMENSION_LENS), true, true, origin, direction);
     Frame frame = frame_from_normal(direction);
     vec3 local = sample_cosine_hemisphere(u) + sample_uniform_hemisphere(u) + sample_uniform_sphere(u);
-    vec3 p = offset_ray(origin, to_world(frame, to_local(frame, local)));
+    vec3 p = offset_ray(origin, to_world(frame, to_local(frame, local)), abs(origin));
     TriangleSample triangle = sample_triangle_solid_angle(p, origin, frame.tangent, frame.bitangent, u);
     float pdf = pdf_triangle_solid_angle(p, origin, frame.tangent, frame.bitangent, origin);
     vec2 uv = environment_uv(environment_direction(u, vec2(1.0f, 0.0f)), vec2(0.0f, 1.0f));
