@@ -59,7 +59,7 @@ Measured measure_white_room(Backend& backend, double depth, Effort effort) {
     add_object(scene, "room", {room(glm::vec3(-1), glm::vec3(1), 0)});
     add_camera(scene, {0.1, 0.2, 0.5}, {0, -0.1, -1}, 60);
     const auto bounces = static_cast<std::uint32_t>(std::lround(depth));
-    const int side = effort == Effort::quick ? 16 : 256;
+    const int side = effort == Effort::quick ? 16 : 64;
     const Film film = render(backend, scene, settings_of(side, side, bounces), effort == Effort::quick ? 64 : 256);
     const double albedo = double{0.999F};
     return judge_mean(film, (1 - std::pow(albedo, bounces + 1.0)) / (1 - albedo));
