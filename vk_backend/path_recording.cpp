@@ -68,7 +68,15 @@ std::vector<shared::PathSummary> PathRenderer::summarize_paths(Queries queries) 
     });
 }
 
-std::vector<RecordedPath> PathRenderer::record_paths(Queries queries) {
+std::vector<RecordedPath> PathRenderer::record_paths(Queries queries, std::optional<std::uint32_t> seed) {
+    if (seed && *seed != constants_.seed) {
+        const std::uint32_t of_film = std::exchange(constants_.seed, *seed);
+        replace_constants(*gpu_, bindings_, constants_);
+        std::vector<RecordedPath> paths = record_paths(queries);
+        constants_.seed = of_film;
+        replace_constants(*gpu_, bindings_, constants_);
+        return paths;
+    }
     return in_context("recording paths", [&] {
         // A path has one vertex more than it scatters; few come near the limit, so their lengths are asked for first.
         const std::vector<shared::PathSummary> lengths = summarize_paths(queries);

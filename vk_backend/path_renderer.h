@@ -39,7 +39,8 @@ public:
     void watch_reservoirs(ReservoirHook hook) override { hook_ = std::move(hook); }
     Film film() const override;
     TraversalBench bench_traversal(std::uint32_t samples) override;
-    std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery> queries) override;
+    std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery> queries,
+                                           std::optional<std::uint32_t> seed = {}) override;
     std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery> queries) override;
 
     const BottomLevels& bottom_levels() const { return bottom_; }
