@@ -1,0 +1,43 @@
+// How the interface looks: one type scale, one unit of space, one accent.
+#pragma once
+
+#include <imgui.h>
+
+namespace diptych::app {
+
+/// Lengths in pixels of the framebuffer, colours as display values.
+struct Theme {
+    float scale = 1;      // 2 on a display of twice the usual density
+    float unit = 4;       // all spaces are multiples of it
+    float label = 96;     // width of a column of labels
+    float panel = 264;    // width of a side panel
+    float bar = 44;       // height of the top bar
+    ImFont* body = nullptr;
+    ImFont* strong = nullptr;  // headings and figures that matter
+    ImFont* small = nullptr;   // units and notes
+
+    float units(float count) const { return unit * count; }
+};
+
+namespace colors {
+inline constexpr ImVec4 panel{0.055F, 0.063F, 0.075F, 0.90F};
+inline constexpr ImVec4 line{1, 1, 1, 0.09F};
+inline constexpr ImVec4 field{1, 1, 1, 0.07F};
+inline constexpr ImVec4 field_hovered{1, 1, 1, 0.13F};
+inline constexpr ImVec4 text{0.93F, 0.94F, 0.95F, 1};
+inline constexpr ImVec4 muted{0.62F, 0.65F, 0.69F, 1};
+inline constexpr ImVec4 accent{0.31F, 0.63F, 0.93F, 1};
+inline constexpr ImVec4 accent_dim{0.31F, 0.63F, 0.93F, 0.55F};
+// Signals, for what is right or wrong; nothing else has these colours.
+inline constexpr ImVec4 good{0.36F, 0.78F, 0.47F, 1};
+inline constexpr ImVec4 doubtful{0.95F, 0.73F, 0.25F, 1};
+inline constexpr ImVec4 bad{0.95F, 0.38F, 0.35F, 1};
+// The two panels, wherever they stand side by side.
+inline constexpr ImVec4 cpu{0.96F, 0.67F, 0.36F, 1};
+inline constexpr ImVec4 vulkan{0.46F, 0.78F, 0.96F, 1};
+}  // namespace colors
+
+/// Fonts and style of the current context at that scale; the font atlas is built anew.
+Theme apply_theme(float scale);
+
+}  // namespace diptych::app

@@ -1,0 +1,171 @@
+#include "window/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::app {
+
+bool section(const Theme& theme, const char* title, bool open) {
+    ImGui::Dummy({0, theme.units(0.5F)});
+    ImGui::PushFont(theme.strong);
+    ImGui::PushID(title);
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    const ImGuiID id = ImGui::GetID("open");
+    bool is_open = kept.GetBool(id, open);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetFrameHeight();
+    if (ImGui::InvisibleButton("fold", {std::max(ImGui::GetContentRegionAvail().x, 1.0F), height})) {
+        is_open = !is_open;
+        kept.SetBool(id, is_open);
+    }
+    const bool hovered = ImGui::IsItemHovered();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float half = theme.units(0.9F);
+    const ImVec2 mid{at.x + half, at.y + height / 2};
+    const ImU32 color = packed(hovered ? colors::text : colors::muted);
+    if (is_open) {
+        draw.AddTriangleFilled({mid.x - half, mid.y - half / 2}, {mid.x + half, mid.y - half / 2}, {mid.x, mid.y + half / 2}, color);
+    } else {
+        draw.AddTriangleFilled({mid.x - half / 2, mid.y - half}, {mid.x + half / 2, mid.y}, {mid.x - half / 2, mid.y + half}, color);
+    }
+    draw.AddText({at.x + theme.units(3), at.y + ImGui::GetStyle().FramePadding.y}, packed(colors::text), title);
+    ImGui::PopID();
+    ImGui::PopFont();
+    return is_open;
+}
+
+void explain(const char* text) {
+    if (text != nullptr && ImGui::IsItemHovered()) {
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ImGui::GetFontSize() * 0.6F, ImGui::GetFontSize() * 0.4F});
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 20);
+        ImGui::TextUnformatted(text);
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+        ImGui::PopStyleVar();
+    }
+}
+
+void row(const Theme& theme, const char* label, const char* help) {
+    const float left = ImGui::GetCursorPosX();
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, colors::muted);
+    ImGui::TextUnformatted(label);
+    ImGui::PopStyleColor();
+    explain(help);
+    ImGui::SameLine(left + theme.label, 0);
+    ImGui::SetNextItemWidth(-1);
+}
+
+bool choice(const Theme& theme, const char* label, std::span<const char* const> names, int& chosen, const char* help) {
+    row(theme, label, help);
+    ImGui::PushID(label);
+    const bool changed = ImGui::Combo("##choice", &chosen, names.data(), static_cast<int>(names.size()), static_cast<int>(names.size()));
+    ImGui::PopID();
+    return changed;
+}
+
+namespace {
+
+bool number(const Theme& theme, const char* label, double& value, double least, double most, const char* format, const char* help,
+            ImGuiSliderFlags flags) {
+    row(theme, label, help);
+    ImGui::PushID(label);
+    const bool changed = ImGui::SliderScalar("##number", ImGuiDataType_Double, &value, &least, &most, format,
+                                             flags | ImGuiSliderFlags_AlwaysClamp);
+    ImGui::PopID();
+    return changed;
+}
+
+}  // namespace
+
+bool slider(const Theme& theme, const char* label, double& value, double least, double most, const char* format, const char* help) {
+    return number(theme, label, value, least, most, format, help, 0);
+}
+
+bool logarithmic_slider(const Theme& theme, const char* label, double& value, double least, double most, const char* format,
+                        const char* help) {
+    return number(theme, label, value, least, most, format, help, ImGuiSliderFlags_Logarithmic);
+}
+
+bool slider(const Theme& theme, const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most, const char* help) {
+    row(theme, label, help);
+    ImGui::PushID(label);
+    const bool changed = ImGui::SliderScalar("##count", ImGuiDataType_U32, &value, &least, &most, "%u", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::PopID();
+    return changed;
+}
+
+bool toggle(const Theme& theme, const char* label, bool& value, const char* help) {
+    row(theme, label, help);
+    ImGui::PushID(label);
+    const bool changed = ImGui::Checkbox("##toggle", &value);
+    ImGui::PopID();
+    return changed;
+}
+
+bool segments(const Theme& theme, const char* id, std::span<const char* const> names, int& chosen, float width) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetFrameHeight();
+    const float part = std::floor(width / static_cast<float>(names.size()));
+    const float rounding = ImGui::GetStyle().FrameRounding;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(at, {at.x + part * static_cast<float>(names.size()), at.y + height}, packed(colors::field), rounding);
+    const int before = chosen;
+    ImGui::PushID(id);
+    for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+        const char* name = names[static_cast<std::size_t>(i)];
+        const ImVec2 from{at.x + part * static_cast<float>(i), at.y};
+        ImGui::SetCursorScreenPos(from);
+        if (ImGui::InvisibleButton(name, {part, height})) {
+            chosen = i;
+        }
+        const bool down = chosen == i;
+        if (down || ImGui::IsItemHovered()) {
+            draw.AddRectFilled(from, {from.x + part, from.y + height}, packed(down ? colors::accent_dim : colors::field_hovered), rounding);
+        }
+        const ImVec2 size = ImGui::CalcTextSize(name);
+        draw.AddText({from.x + std::floor((part - size.x) / 2), from.y + ImGui::GetStyle().FramePadding.y},
+                     packed(down ? colors::text : colors::muted), name);
+    }
+    ImGui::PopID();
+    ImGui::SetCursorScreenPos(at);
+    ImGui::Dummy({part * static_cast<float>(names.size()), height});
+    static_cast<void>(theme);
+    return chosen != before;
+}
+
+bool quiet_button(const char* text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colors::muted);
+    const bool pressed = ImGui::Button(text);
+    ImGui::PopStyleColor();
+    return pressed;
+}
+
+void note(const Theme& theme, const std::string& text, const ImVec4& color) {
+    ImGui::PushFont(theme.small);
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
+void note_wrapped(const Theme& theme, const std::string& text, const ImVec4& color) {
+    ImGui::PushTextWrapPos(0);
+    note(theme, text, color);
+    ImGui::PopTextWrapPos();
+}
+
+void right_aligned(const std::string& text, const ImVec4& color) {
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(room, 0.0F));
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+}
+
+ImU32 packed(const ImVec4& color) {
+    return ImGui::ColorConvertFloat4ToU32(color);
+}
+
+}  // namespace diptych::app

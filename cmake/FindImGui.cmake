@@ -1,0 +1,15 @@
+# ImGui::ImGui with its GLFW half (imgui_impl_glfw.h), from headers and library alone: Debian ships no CMake files for it.
+find_path(ImGui_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui)
+find_path(ImGui_BACKENDS_INCLUDE_DIR imgui_impl_glfw.h PATH_SUFFIXES imgui/backends backends)
+find_library(ImGui_LIBRARY imgui)
+find_library(ImGui_STB_LIBRARY stb)  # Debian's build takes its rectangle packer and font rasteriser from there
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(ImGui REQUIRED_VARS ImGui_LIBRARY ImGui_INCLUDE_DIR ImGui_BACKENDS_INCLUDE_DIR)
+if(ImGui_FOUND AND NOT TARGET ImGui::ImGui)
+  add_library(ImGui::ImGui INTERFACE IMPORTED)
+  target_include_directories(ImGui::ImGui INTERFACE ${ImGui_INCLUDE_DIR} ${ImGui_BACKENDS_INCLUDE_DIR})
+  target_link_libraries(ImGui::ImGui INTERFACE ${ImGui_LIBRARY} glfw)
+  if(ImGui_STB_LIBRARY)
+    target_link_libraries(ImGui::ImGui INTERFACE ${ImGui_STB_LIBRARY})
+  endif()
+endif()
