@@ -71,6 +71,10 @@ public:
     /// the meshes of the first. Throws Error where the counts differ.
     virtual void move_to(const PackedScene& moment) = 0;
 
+    /// Goes on with other settings of the same scene: `packed` is pack_scene of it under them. The film begins anew, with
+    /// packed.constants.seed and no history; what the settings do not touch stays. Throws Error where it is another scene.
+    virtual void reconfigure(const PackedScene&) { throw Error("--backend " + backend() + ": keeps its settings"); }
+
     /// Seconds the device itself worked on `render` calls so far: timestamps on a GPU, wall clock on the CPU.
     virtual double device_seconds() const = 0;
 
