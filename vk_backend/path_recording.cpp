@@ -24,27 +24,28 @@ Buffer record_buffer(const Gpu& gpu, std::uint64_t bytes) {
 
 void PathRenderer::trace_listed(Queries queries, std::uint32_t vertices_per_path, const Buffer& vertices,
                                 const Buffer& summaries) {
-    if (!recorder_) {
-        recorder_ = std::make_unique<Recorder>(Recorder{compile(shader_binary("record.rgen"), false), SpeedEstimate()});
+    const TracePipeline& recorder = pipeline(shader_binary("record.rgen"));
+    if (!recording_speed_) {
+        recording_speed_.emplace(dispatch_seconds_);
     }
     Uploader uploader(*gpu_);
     const Buffer list = upload_array(*gpu_, uploader, "paths to trace", queries,
                                      Usage::eStorageBuffer | Usage::eShaderDeviceAddress);
     uploader.finish();
-    SceneAddresses all = addresses(film_);
+    SceneAddresses all = addresses(*film_);
     all.path_queries = list.address;
     all.path_vertices = vertices.address;
     all.path_summaries = summaries.address;
     const Bindings bindings = make_bindings(*gpu_, layout_, *top_.structure, *top_.structure, all, constants_);
-    TimedQueue queue(*gpu_, [&](std::uint64_t work, double seconds) { recorder_->speed.learn(work, seconds); });
+    TimedQueue queue(*gpu_, [&](std::uint64_t work, double seconds) { recording_speed_->learn(work, seconds); });
     for (std::uint64_t first = 0; first < queries.size();) {
         const std::uint64_t limit = gpu_->ray_tracing.maxRayDispatchInvocationCount;
-        const std::uint64_t count = std::min({queries.size() - first, recorder_->speed.budget(), limit});
+        const std::uint64_t count = std::min({queries.size() - first, recording_speed_->budget(), limit});
         shared::Dispatch dispatch{};
         dispatch.first_path = static_cast<std::uint32_t>(first);
         dispatch.vertices_per_path = vertices_per_path;
         queue.submit(count, [&](const vk::raii::CommandBuffer& commands) {
-            record_dispatch(commands, recorder_->pipeline, layout_, bindings, dispatch,
+            record_dispatch(commands, recorder, layout_, bindings, dispatch,
                             static_cast<std::uint32_t>(count), 1);
         });
         first += count;
