@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "render/settings.h"
+#include "scene/sun.h"
+#include "scene/viewpoint.h"
 
 namespace diptych {
 
@@ -23,6 +25,8 @@ struct RenderRequest {
     double environment_rotation = 0;       // degrees
     std::optional<double> lens_radius;     // metres
     std::optional<double> focus_distance;  // metres
+    Viewpoint viewpoint;                   // of the camera; empty is the scene's own
+    std::optional<Sun> sun;                // beside the scene's own lights
     double exposure = 0;                   // EV, for output that is tone mapped
     std::string tonemap = "none";
     int threads = 0;  // cpu, oracle; 0 is one a core

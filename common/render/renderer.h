@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -71,9 +72,11 @@ public:
     /// the meshes of the first. Throws Error where the counts differ.
     virtual void move_to(const PackedScene& moment) = 0;
 
-    /// Goes on with other settings of the same scene: `packed` is pack_scene of it under them. The film begins anew, with
-    /// packed.constants.seed and no history; what the settings do not touch stays. Throws Error where it is another scene.
-    virtual void reconfigure(const PackedScene&) { throw Error("--backend " + backend() + ": keeps its settings"); }
+    /// Goes on with other settings of the same scene: `packed` is pack_scene of it under them. The film begins anew with packed.constants.seed
+    /// and no history; what follows has the bits of a new renderer. What the settings do not touch stays: geometry, acceleration structures,
+    /// pipelines met before. The CPU panel refers to `packed` from then on, and to the vertices and triangles of the first pack. Throws Error
+    /// where the backend cannot.
+    virtual void reconfigure(const PackedScene&) { throw Error("--backend " + backend() + ": cannot go on with other settings"); }
 
     /// Seconds the device itself worked on `render` calls so far: timestamps on a GPU, wall clock on the CPU.
     virtual double device_seconds() const = 0;
@@ -90,9 +93,11 @@ public:
     /// Measures `samples` samples a pixel, leaving the film alone.
     virtual TraversalBench bench_traversal(std::uint32_t samples) = 0;
 
-    /// Traces the paths listed, leaving the film alone, and returns all that each of them did, or a summary for the many. Throws Error
-    /// where the backend cannot.
-    virtual std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery>) { refuse_paths(); }
+    /// Traces the paths listed, leaving the film alone, and returns all that each of them did, or a summary for the many; under the film's
+    /// seed, or another that is given. Throws Error where the backend cannot.
+    virtual std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery>, std::optional<std::uint32_t> = {}) {
+        refuse_paths();
+    }
     virtual std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery>) { refuse_paths(); }
 
 private:

@@ -98,8 +98,11 @@ public:
     Film film() const override { return film_; }
     TraversalBench bench_traversal(std::uint32_t samples) override;
 
-    std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery> queries) override {
-        return arena_.execute([&] { return diptych::record_paths(*packed_, constants_, *scene_, queries); });
+    std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery> queries,
+                                           std::optional<std::uint32_t> seed) override {
+        shared::RenderConstants constants = constants_;
+        constants.seed = seed.value_or(constants.seed);
+        return arena_.execute([&] { return diptych::record_paths(*packed_, constants, *scene_, queries); });
     }
     std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery> queries) override {
         return arena_.execute([&] { return diptych::summarize_paths(*packed_, constants_, *scene_, queries); });

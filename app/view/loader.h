@@ -1,0 +1,76 @@
+// Opens scenes while the present one goes on being shown, and opens them again when their files change.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "render/render_request.h"
+#include "scene/default_camera.h"
+#include "scene/scene.h"
+
+namespace diptych::app {
+
+/// A scene as loaded: with the request's environment, but neither its scale, rotation and sun, nor its viewpoint.
+struct LoadedScene {
+    std::uint64_t generation = 0;  // RenderedState::scene
+    std::shared_ptr<const Scene> scene;
+    RenderRequest request;  // that it was asked for with; settings.camera is an index into the scene's
+    Bounds bounds;          // at rest
+    std::vector<std::filesystem::path> files;  // that it is made of
+    bool reloaded = false;  // because a file changed: camera and settings stay
+};
+
+/// Loads on the calling thread. Throws Error.
+LoadedScene load_scene(const RenderRequest& request, std::uint64_t generation);
+
+class SceneLoader {
+public:
+    SceneLoader();
+    ~SceneLoader();
+    SceneLoader(const SceneLoader&) = delete;
+    SceneLoader& operator=(const SceneLoader&) = delete;
+
+    /// Loads the request's scene and environment in the background; takes the place of a request that still waits.
+    void open(RenderRequest request);
+
+    /// Watches these files, four times a second, and opens the request again once they have changed and then held still for one look.
+    void watch(const LoadedScene& loaded);
+
+    /// What has come of it since the last call: a scene, or else an error line. Neither while nothing is done.
+    std::optional<LoadedScene> take_scene();
+    std::optional<std::string> take_error();
+
+    /// The file being loaded; empty when idle.
+    std::string loading() const;
+
+private:
+    void run();
+    bool files_changed();
+
+    using Stamp = std::optional<std::filesystem::file_time_type>;
+
+    mutable std::mutex mutex_;
+    std::condition_variable wake_;
+    std::optional<RenderRequest> wanted_;
+    bool reload_ = false;
+    std::optional<LoadedScene> loaded_;
+    std::optional<std::string> error_;
+    std::string loading_;
+    RenderRequest watched_request_;
+    std::vector<std::filesystem::path> watched_;
+    std::vector<Stamp> stamps_;   // as loaded
+    std::vector<Stamp> changing_; // as of the last look, while they change
+    std::uint64_t generation_ = 1;
+    bool stop_ = false;
+    std::thread thread_;
+};
+
+}  // namespace diptych::app
