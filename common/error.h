@@ -18,4 +18,10 @@ public:
     using Error::Error;
 };
 
+/// A device that fell away while it worked: what stands on it is lost, and another may be opened.
+class DeviceLost : public Error {
+public:
+    using Error::Error;
+};
+
 }  // namespace diptych

@@ -16,21 +16,21 @@ namespace {
 class VulkanBackend : public Backend {
 public:
     VulkanBackend(const std::string& device, bool validation)
-        : device_(device), validation_(validation), gpu_(open_gpu(device, validation_wanted(validation))),
-          shader_(gpu_, stability_shader_binary("measured.comp"), 2) {}
+        : device_(device), validation_(validation), gpu_(open_gpu({.device = device, .validation = validation_wanted(validation)})),
+          shader_(*gpu_, stability_shader_binary("measured.comp"), 2) {}
 
     std::string name() const override { return "vulkan"; }
-    std::string device() const override { return gpu_.name; }
+    std::string device() const override { return gpu_->name; }
 
     std::vector<MeasuredOutput> run(Function function, std::span<const MeasuredInput> inputs) override {
-        Uploader uploader(gpu_, std::uint64_t{8} << 20U);
+        Uploader uploader(*gpu_, std::uint64_t{8} << 20U);
         const Buffer in =
-            upload_array(gpu_, uploader, "measured inputs", inputs, vk::BufferUsageFlagBits::eStorageBuffer);
+            upload_array(*gpu_, uploader, "measured inputs", inputs, vk::BufferUsageFlagBits::eStorageBuffer);
         uploader.finish();
-        const Buffer out = make_storage(gpu_, inputs.size() * sizeof(MeasuredOutput));
+        const Buffer out = make_storage(*gpu_, inputs.size() * sizeof(MeasuredOutput));
         const Buffer* const buffers[] = {&in, &out};
         shader_.run(buffers, static_cast<std::uint32_t>(inputs.size()), static_cast<std::uint32_t>(function));
-        return read_array<MeasuredOutput>(gpu_, out);
+        return read_array<MeasuredOutput>(*gpu_, out);
     }
 
     std::unique_ptr<Renderer> make_renderer(const PackedScene& packed) override {
@@ -43,7 +43,7 @@ public:
 private:
     std::string device_;
     bool validation_;
-    Gpu gpu_;
+    std::shared_ptr<Gpu> gpu_;
     ComputeShader shader_;
 };
 

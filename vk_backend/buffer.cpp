@@ -55,4 +55,12 @@ Buffer make_buffer(const Gpu& gpu, const char* what, std::uint64_t size, vk::Buf
     return buffer;
 }
 
+vk::raii::DeviceMemory allocate_image(const Gpu& gpu, const vk::raii::Image& image) {
+    const vk::MemoryRequirements needs = image.getMemoryRequirements();
+    vk::raii::DeviceMemory memory = gpu.device.allocateMemory(
+        {.allocationSize = needs.size, .memoryTypeIndex = memory_type(gpu, needs.memoryTypeBits, MemoryKind::device)});
+    image.bindMemory(*memory, 0);
+    return memory;
+}
+
 }  // namespace diptych

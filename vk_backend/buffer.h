@@ -1,4 +1,4 @@
-// Buffers, each with its own memory.
+// Buffers and images, each with its own memory.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,9 @@ struct Buffer {
 
 /// Throws Error where memory runs out, naming `what`. A size of 0 gives a buffer without handle, at address 0.
 Buffer make_buffer(const Gpu& gpu, const char* what, std::uint64_t size, vk::BufferUsageFlags usage, MemoryKind kind);
+
+/// Memory of the GPU's own, bound to the image. Throws vk::SystemError where it runs out.
+vk::raii::DeviceMemory allocate_image(const Gpu& gpu, const vk::raii::Image& image);
 
 /// The smallest multiple of `alignment` (a power of two) that is not below `value`.
 constexpr std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {

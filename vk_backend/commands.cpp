@@ -17,7 +17,7 @@ void CommandSlot::submit(const Record& record) {
     record(commands_);
     commands_.end();
     const vk::SubmitInfo info{.commandBufferCount = 1, .pCommandBuffers = &*commands_};
-    gpu_.queue.submit(info, *fence_);
+    diptych::submit(gpu_, info, *fence_);
     in_flight_ = true;
 }
 

@@ -36,6 +36,7 @@ FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t featur
 
 void clear_film(const Gpu& gpu, const FilmMemory& film) {
     run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
+        full_barrier(commands);  // a display may be reading it
         for (const Buffer* buffer : {&film.pixels, &film.moments, &film.first_hits}) {
             if (buffer->size > 0) {
                 commands.fillBuffer(*buffer->handle, 0, VK_WHOLE_SIZE, 0);

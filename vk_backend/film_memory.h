@@ -19,7 +19,7 @@ struct FilmMemory {
 /// A film of zeros with the layers that `features` names.
 FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t features);
 
-/// Zeros again. Nothing that writes the film may be in flight.
+/// Zeros again. Nothing that writes the film may be in flight; a display that reads it may.
 void clear_film(const Gpu& gpu, const FilmMemory& film);
 
 /// Enters the film's addresses.

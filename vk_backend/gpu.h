@@ -1,13 +1,24 @@
-// The device that is rendered on: its queue and the limits that matter here.
+// The device that is rendered on: its queue and the limits that matter here. Renderers and what shows their films share
+// one.
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #include "loader.h"
 #include "vulkan_headers.h"
 
 namespace diptych {
+
+struct GpuRequest {
+    std::string device = {};                            // "" the best, else an index or a part of the name (devices.h)
+    bool validation = false;                            // core and synchronisation validation
+    std::vector<std::string> instance_extensions = {};  // that a window's surface needs
+    bool presents = false;                              // VK_KHR_swapchain, and a queue that draws
+};
 
 struct Gpu {
     VulkanInstance vulkan;
@@ -21,9 +32,16 @@ struct Gpu {
     std::uint64_t scratch_alignment = 1;  // of acceleration structure builds
     double tick_seconds = 0;              // of timestamps; 0 where the queue has none
     std::uint64_t tick_mask = 0;          // their valid bits
+    mutable std::mutex queue_mutex;       // held by whoever submits, presents or waits for the whole queue
 };
 
-/// Opens the chosen device (devices.h). Throws NoDevice or Error.
-Gpu open_gpu(const std::string& choice, bool validation);
+/// Opens the chosen device. Throws NoDevice or Error.
+std::shared_ptr<Gpu> open_gpu(const GpuRequest& request);
+
+/// Submits, from any thread.
+void submit(const Gpu& gpu, const vk::SubmitInfo& info, vk::Fence fence);
+
+/// Waits for all that any thread has submitted.
+void wait_idle(const Gpu& gpu);
 
 }  // namespace diptych

@@ -40,10 +40,13 @@ bool has_layer(const vk::raii::Context& context) {
                        [](const auto& layer) { return std::strcmp(layer.layerName, layer_name) == 0; });
 }
 
-vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation) {
+vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation, std::span<const std::string> wanted) {
     const vk::ApplicationInfo application{.pApplicationName = "diptych", .apiVersion = VK_API_VERSION_1_2};
     vk::InstanceCreateInfo info{.pApplicationInfo = &application};
-    constexpr std::array extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+    std::vector<const char*> extensions;
+    for (const std::string& name : wanted) {
+        extensions.push_back(name.c_str());
+    }
     constexpr std::array enabled = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
     vk::DebugUtilsMessengerCreateInfoEXT messenger = validation_messenger();
     vk::ValidationFeaturesEXT features;
@@ -53,22 +56,25 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validati
                         " is not installed (package vulkan-validationlayers)");
         }
         features.setEnabledValidationFeatures(enabled).setPNext(&messenger);
-        info.setPEnabledExtensionNames(extensions).setPNext(&features);
+        info.setPNext(&features);
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &layer_name;
     }
+    info.setPEnabledExtensionNames(extensions);
     return context.createInstance(info);
 }
 
 }  // namespace
 
-VulkanInstance open_instance(bool validation) {
+VulkanInstance open_instance(bool validation, std::span<const std::string> extensions) {
     VulkanInstance opened{.context = vk::raii::Context(open_loader()), .instance = nullptr, .messenger = {}};
     try {
         if (opened.context.enumerateInstanceVersion() < VK_API_VERSION_1_2) {
             throw NoDevice("the Vulkan loader is older than 1.2");
         }
-        opened.instance = make_instance(opened.context, validation);
+        opened.instance = make_instance(opened.context, validation, extensions);
         if (validation) {
             opened.messenger = opened.instance.createDebugUtilsMessengerEXT(validation_messenger());
         }

@@ -39,8 +39,10 @@ void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipelin
 }
 
 PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes)
-    : gpu_(std::make_unique<Gpu>(open_gpu(options.device, validation_wanted(options.validation)))),
-      constants_(packed.constants), features_(packed.features), changes_(changes), schedule_(packed.constants) {
+    : PathRenderer(open_gpu({.device = options.device, .validation = validation_wanted(options.validation)}), packed, changes) {}
+
+PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, const PathRendererOptions& changes)
+    : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes), schedule_(packed.constants) {
     const auto start = std::chrono::steady_clock::now();
     in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
     in_context("building acceleration structures", [&] {
@@ -52,42 +54,33 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
     });
     const auto size = glm::ivec2(constants_.size);
     in_context("making the film", [&] {
-        film_ = make_film(*gpu_, size.x, size.y, features_);
-        resampling_ = make_resampling_memory(*gpu_, constants_);
+        film_ = std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_));
+        resampling_ = std::make_shared<ResamplingMemory>(make_resampling_memory(*gpu_, constants_));
     });
     costs_.build_seconds = seconds_since(start);
-    costs_.acceleration_bytes = bottom_.bytes + top_.storage.size + previous_top_.storage.size;
-    costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + film_bytes(film_) +
-                   resampling_memory_bytes(resampling_);
+    count_bytes();
 
     const auto compile_start = std::chrono::steady_clock::now();
     in_context("setting up pipelines", [&] {
         layout_ = make_pipeline_layout(*gpu_);
-        if (resamples()) {
-            for (std::size_t i = 0; i < resampling_stages; ++i) {
-                const auto stage = static_cast<ResamplingStage>(i);
-                if (needs_stage(stage, constants_)) {
-                    stages_[i] = compile(resampling_shader(stage), false);
-                }
-            }
-        } else {
-            path_ = compile(changes.ray_generation.empty() ? shader_binary("path.rgen") : changes.ray_generation, false);
-        }
-        const auto& previous = packed.keeps_previous ? previous_top_ : top_;
-        bindings_ = make_bindings(*gpu_, layout_, *top_.structure, *previous.structure, addresses(film_), constants_);
-        if (!resamples()) {
-            warm_up(path_, bindings_);
-        }
+        choose_pipelines();
+        bind(packed);
         queue_ = std::make_unique<TimedQueue>(
             *gpu_, [this](std::uint64_t work, double seconds) { speed_.learn(work, seconds); });
     });
     costs_.compile_seconds = seconds_since(compile_start);
 }
 
+void PathRenderer::count_bytes() {
+    costs_.acceleration_bytes = bottom_.bytes + top_.storage.size + previous_top_.storage.size;
+    costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + film_bytes(*film_) +
+                   resampling_memory_bytes(*resampling_);
+}
+
 SceneAddresses PathRenderer::addresses(const FilmMemory& film) const {
     SceneAddresses all = scene_addresses(scene_);
     enter_film(all, film);
-    enter_resampling(all, resampling_);
+    enter_resampling(all, *resampling_);
     return all;
 }
 
@@ -99,6 +92,36 @@ TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) cons
         make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha), features_, record_rays);
     save_pipeline_cache(cache, cache_path);
     return pipeline;
+}
+
+const TracePipeline& PathRenderer::pipeline(Spirv ray_generation) {
+    const auto key = std::pair(ray_generation.data(), features_);
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
+        return found->second;
+    }
+    return pipelines_.emplace(key, compile(ray_generation, false)).first->second;
+}
+
+void PathRenderer::choose_pipelines() {
+    path_ = nullptr;
+    stages_.fill(nullptr);
+    if (!resamples()) {
+        path_ = &pipeline(changes_.ray_generation.empty() ? shader_binary("path.rgen") : changes_.ray_generation);
+    }
+    for (std::size_t i = 0; resamples() && i < resampling_stages; ++i) {
+        const auto stage = static_cast<ResamplingStage>(i);
+        if (needs_stage(stage, constants_)) {
+            stages_[i] = &pipeline(resampling_shader(stage));
+        }
+    }
+}
+
+void PathRenderer::bind(const PackedScene& packed) {
+    const TopLevel& previous = packed.keeps_previous ? previous_top_ : top_;
+    bindings_ = make_bindings(*gpu_, layout_, *top_.structure, *previous.structure, addresses(*film_), constants_);
+    if (!resamples()) {
+        warm_up(*path_, bindings_);
+    }
 }
 
 // Some drivers compile at the first dispatch. This one adds no samples, and keeps that time out of the measured ones.
@@ -125,12 +148,12 @@ void PathRenderer::restart(std::uint32_t seed) {
         constants_.seed = seed;
         replace_constants(*gpu_, bindings_, constants_);
         schedule_.restart();
-        diptych::clear_film(*gpu_, film_);
+        diptych::clear_film(*gpu_, *film_);
     });
 }
 
 void PathRenderer::clear_film() {
-    in_context("emptying the film", [&] { diptych::clear_film(*gpu_, film_); });
+    in_context("emptying the film", [&] { diptych::clear_film(*gpu_, *film_); });
 }
 
 void PathRenderer::move_to(const PackedScene& moment) {
@@ -167,17 +190,34 @@ void PathRenderer::render_paths(std::uint32_t first, std::uint32_t count, const 
         dispatch.first_sample = slice.first_sample;
         dispatch.sample_count = slice.sample_count;
         queue_->submit(slice.work(), [&](const vk::raii::CommandBuffer& commands) {
-            record_dispatch(commands, path_, layout_, bindings_, dispatch, slice.region.width, slice.region.height);
+            record_dispatch(commands, *path_, layout_, bindings_, dispatch, slice.region.width, slice.region.height);
         });
     }
 }
 
+DeviceFilm PathRenderer::device_film() const {
+    const bool has_reservoirs = resampling_->reservoirs.size > 0;
+    return {.film = film_, .resampling = has_reservoirs ? resampling_ : nullptr, .reservoir_set = reservoir_set_};
+}
+
+void PathRenderer::aim_dispatches(double seconds) {
+    dispatch_seconds_ = seconds;
+    speed_.aim(seconds);
+    if (recording_speed_) {
+        recording_speed_->aim(seconds);
+    }
+}
+
 Film PathRenderer::film() const {
-    return in_context("reading the film", [&] { return read_film(*gpu_, film_); });
+    return in_context("reading the film", [&] { return read_film(*gpu_, *film_); });
 }
 
 std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options) {
     return std::make_unique<PathRenderer>(packed, options);
+}
+
+std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed) {
+    return std::make_unique<PathRenderer>(std::move(gpu), packed);
 }
 
 }  // namespace diptych

@@ -1,11 +1,15 @@
 // The Renderer over one device; made by make_vulkan_renderer, and directly by tests.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "../shaders/dispatch.h"
 #include "acceleration.h"
 #include "bindings.h"
+#include "device_film.h"
 #include "film_memory.h"
 #include "pipeline.h"
 #include "pipeline_cache.h"
@@ -25,6 +29,7 @@ struct PathRendererOptions {
 
 class PathRenderer final : public Renderer {
 public:
+    PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, const PathRendererOptions& changes = {});
     PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes = {});
 
     std::string backend() const override { return "vulkan"; }
@@ -34,6 +39,7 @@ public:
     void restart(std::uint32_t seed) override;
     void clear_film() override;
     void move_to(const PackedScene& moment) override;
+    void reconfigure(const PackedScene& packed) override;
     double device_seconds() const override { return queue_->seconds(); }
     std::vector<PassTime> pass_times() const override;
     void watch_reservoirs(ReservoirHook hook) override { hook_ = std::move(hook); }
@@ -45,8 +51,19 @@ public:
 
     const BottomLevels& bottom_levels() const { return bottom_; }
 
+    /// What there is to be seen, for a display pass on the same device; what is rendered later shows in it too.
+    DeviceFilm device_film() const;
+    /// Seconds of device time a dispatch may take from now on: whoever shares the queue waits for two of them at most.
+    void aim_dispatches(double seconds);
+    /// Since the renderer was made.
+    std::size_t pipelines_compiled() const { return pipelines_.size(); }
+
 private:
     TracePipeline compile(Spirv ray_generation, bool record_rays) const;
+    const TracePipeline& pipeline(Spirv ray_generation);
+    void choose_pipelines();
+    void bind(const PackedScene& packed);
+    void count_bytes();
     SceneAddresses addresses(const FilmMemory& film) const;
     void render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
     void render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
@@ -54,10 +71,12 @@ private:
     std::uint64_t slice_budget() const;
     bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
     void warm_up(const TracePipeline& pipeline, const Bindings& bindings) const;
-    void trace_listed(std::span<const shared::PathQuery> queries, std::uint32_t vertices_per_path,
-                      const Buffer& vertices, const Buffer& summaries);
+    std::vector<shared::PathSummary> summarize(std::span<const shared::PathQuery> queries,
+                                               const shared::RenderConstants& constants);
+    void trace_listed(std::span<const shared::PathQuery> queries, const shared::RenderConstants& constants,
+                      std::uint32_t vertices_per_path, const Buffer& vertices, const Buffer& summaries);
 
-    std::unique_ptr<Gpu> gpu_;
+    std::shared_ptr<Gpu> gpu_;
     shared::RenderConstants constants_;
     std::uint32_t features_;
     PathRendererOptions changes_;
@@ -66,23 +85,21 @@ private:
     TopLevel top_;
     TopLevel previous_top_;            // of the moment before, where PackedScene::keeps_previous
     std::unique_ptr<Uploader> mover_;  // made at the first move
-    FilmMemory film_;
+    std::shared_ptr<FilmMemory> film_;
     PipelineLayout layout_;
-    TracePipeline path_;
-    ResamplingMemory resampling_;
-    std::array<TracePipeline, resampling_stages> stages_;
+    std::map<std::pair<const std::uint32_t*, std::uint32_t>, TracePipeline> pipelines_;  // by ray generation shader and features
+    const TracePipeline* path_ = nullptr;
+    std::shared_ptr<ResamplingMemory> resampling_;
+    std::array<const TracePipeline*, resampling_stages> stages_{};
     ResamplingSchedule schedule_;
     ReservoirHook hook_;
+    std::uint32_t reservoir_set_ = 0;  // that the last frame left
     Bindings bindings_;
-    SpeedEstimate speed_;
+    double dispatch_seconds_ = 0.06;
+    SpeedEstimate speed_{dispatch_seconds_};
     std::unique_ptr<TimedQueue> queue_;
     RendererCosts costs_;
-    // record.rgen and what is known of its speed; made when first asked for.
-    struct Recorder {
-        TracePipeline pipeline;
-        SpeedEstimate speed;
-    };
-    std::unique_ptr<Recorder> recorder_;
+    std::optional<SpeedEstimate> recording_speed_;  // of record.rgen, once it has been asked for
 };
 
 /// Shaders of shaders/ under a ray generation shader; any-hit shaders only where `alpha`.

@@ -19,6 +19,7 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
     };
     for (std::uint32_t frame = first; frame < first + count && !cancel.load(); ++frame) {
         for (const ResamplingStep& step : schedule_.next_frame(frame)) {
+            reservoir_set_ = resulting_set(step);
             SliceCursor cursor({0, 0, constants_.size.x, constants_.size.y}, frame, 1);
             while (!cursor.done()) {
                 const Slice slice = cursor.next(slice_budget(), gpu_->ray_tracing.maxRayDispatchInvocationCount);
@@ -30,7 +31,7 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
                 dispatch.pass = step.pass;
                 parts.push_back({step.place, [this, dispatch, slice, stage = step.stage](const auto& commands) {
                                      full_barrier(commands);
-                                     record_dispatch(commands, stages_[static_cast<std::size_t>(stage)], layout_, bindings_,
+                                     record_dispatch(commands, *stages_[static_cast<std::size_t>(stage)], layout_, bindings_,
                                                      dispatch, slice.region.width, slice.region.height);
                                  }});
                 work += slice.work();
@@ -46,7 +47,7 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
 }
 
 void PathRenderer::show_reservoirs(const ResamplingStep& step) {
-    const auto all = read_array<shared::Reservoir>(*gpu_, resampling_.reservoirs);
+    const auto all = read_array<shared::Reservoir>(*gpu_, resampling_->reservoirs);
     const std::size_t pixels = std::size_t{constants_.size.x} * constants_.size.y;
     hook_(step, std::span(all).subspan(resulting_set(step) * pixels, pixels));
 }

@@ -1,14 +1,37 @@
 #include "scene_memory.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "error.h"
 
 namespace diptych {
+namespace {
+
+// Any of them may feed an acceleration structure build; the flag costs nothing on those that do not.
+const vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eShaderDeviceAddress |
+                                       vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR;
+
+// What a scene has most of, and no setting changes: settings only leave such an array out.
+bool is_lasting(std::string_view name) {
+    constexpr std::array lasting = {"positions", "triangles", "normals", "tangents", "uvs", "colors", "texels"};
+    return std::find(lasting.begin(), lasting.end(), name) != lasting.end();
+}
+
+template <typename T>
+void replace(const Gpu& gpu, Uploader& uploader, const char* name, const std::vector<T>& elements, Buffer& buffer) {
+    const std::span<const T> all(elements);
+    if (buffer.size != all.size_bytes()) {
+        buffer = upload_array(gpu, uploader, (std::string("scene buffer ") + name).c_str(), all, usage);
+    } else if (!is_lasting(name)) {
+        uploader.upload(buffer, std::as_bytes(all));
+    }
+}
+
+}  // namespace
 
 SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed) {
-    using Usage = vk::BufferUsageFlagBits;
-    // Any of them may feed an acceleration structure build; the flag costs nothing on those that do not.
-    const vk::BufferUsageFlags usage =
-        Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eAccelerationStructureBuildInputReadOnlyKHR;
     SceneMemory scene;
     Uploader uploader(gpu);
 #define UPLOAD_BUFFER(Type, name)                                                                                      \
@@ -17,6 +40,14 @@ SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed) {
 #undef UPLOAD_BUFFER
     uploader.finish();
     return scene;
+}
+
+void replace_scene(const Gpu& gpu, const PackedScene& packed, SceneMemory& scene) {
+    Uploader uploader(gpu, std::uint64_t{8} << 20U);
+#define REPLACE_BUFFER(Type, name) replace(gpu, uploader, #name, packed.name, scene.name);
+    SCENE_BUFFERS(REPLACE_BUFFER)
+#undef REPLACE_BUFFER
+    uploader.finish();
 }
 
 void upload_moment(Uploader& uploader, const PackedScene& moment, const SceneMemory& scene) {

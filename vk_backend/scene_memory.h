@@ -21,6 +21,10 @@ SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed);
 /// be in flight.
 void upload_moment(Uploader& uploader, const PackedScene& moment, const SceneMemory& scene);
 
+/// The same scene under other settings: arrays of geometry and texels stay where their size is the same, all others are overwritten, or
+/// made anew where their size is another. Nothing that reads them may be in flight.
+void replace_scene(const Gpu& gpu, const PackedScene& packed, SceneMemory& scene);
+
 /// Bytes that upload_moment copies.
 std::uint64_t moving_bytes(const PackedScene& moment);
 

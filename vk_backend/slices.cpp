@@ -44,13 +44,23 @@ Slice SliceCursor::next(std::uint64_t budget, std::uint64_t pixel_limit) {
 SpeedEstimate::SpeedEstimate(double target_seconds, std::uint64_t first_budget)
     : target_seconds_(target_seconds), budget_(first_budget) {}
 
+std::uint64_t SpeedEstimate::wanted() const {
+    return static_cast<std::uint64_t>(std::clamp(target_seconds_ / seconds_per_work_, 1.0, 1e12));
+}
+
+void SpeedEstimate::aim(double target_seconds) {
+    target_seconds_ = target_seconds;
+    if (seconds_per_work_ > 0) {
+        budget_ = std::min(wanted(), budget_ * 8);
+    }
+}
+
 // The estimate may fall by half a step at most, as cheap parts of an image are followed by dear ones, and the budget
 // grows eightfold.
 void SpeedEstimate::learn(std::uint64_t work, double seconds) {
     const double measured = std::max(seconds, 1e-9) / static_cast<double>(std::max<std::uint64_t>(work, 1));
     seconds_per_work_ = std::max(measured, seconds_per_work_ * 0.5);
-    const double wanted = std::clamp(target_seconds_ / seconds_per_work_, 1.0, 1e12);
-    budget_ = std::min(static_cast<std::uint64_t>(wanted), std::max(budget_, work) * 8);
+    budget_ = std::min(wanted(), std::max(budget_, work) * 8);
 }
 
 }  // namespace diptych

@@ -47,9 +47,13 @@ public:
     explicit SpeedEstimate(double target_seconds = 0.06, std::uint64_t first_budget = 4096);
 
     std::uint64_t budget() const { return budget_; }
+    /// From now on, dispatches of so many seconds.
+    void aim(double target_seconds);
     void learn(std::uint64_t work, double seconds);
 
 private:
+    std::uint64_t wanted() const;
+
     double target_seconds_;
     double seconds_per_work_ = 0;
     std::uint64_t budget_;

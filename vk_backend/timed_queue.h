@@ -37,6 +37,8 @@ public:
     double seconds() const { return seconds_; }
     /// Likewise of all parts under a label; 0 where the queue has no timestamps.
     double seconds_of(std::size_t label) const { return label < by_label_.size() ? by_label_[label] : 0; }
+    /// Labels mean something else from now on. Nothing may be in flight.
+    void forget_labels() { by_label_.clear(); }
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -111,7 +111,7 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
     return in_context("measuring traversal", [&] {
         const TracePipeline recording = compile(shader_binary("path.rgen"), true);
         const TracePipeline bare = compile(shader_binary("bare.rgen"), false);
-        const FilmMemory film = make_film(*gpu_, film_.width, film_.height, features_);
+        const FilmMemory film = make_film(*gpu_, film_->width, film_->height, features_);
         const auto bind = [&](const RayMemory& memory) {
             SceneAddresses all = addresses(film);
             all.recorded_rays = memory.rays.address;
@@ -141,7 +141,7 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
         const Bindings bindings = bind(memory);
         warm_up(bare, bindings);
         Runner{*gpu_, layout_, recording, bindings}.integrate(block, memory.capacity);
-        Runner integrator{*gpu_, layout_, path_, bindings};
+        Runner integrator{*gpu_, layout_, *path_, bindings};
         Runner traversal{*gpu_, layout_, bare, bindings};
         integrator.integrate(block, 0);
         traversal.trace(rays);

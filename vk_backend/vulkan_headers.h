@@ -11,11 +11,13 @@
 
 namespace diptych {
 
-/// Runs `work`; a failing Vulkan call in it becomes an Error that says what was being done.
+/// Runs `work`; a failing Vulkan call in it becomes an Error that says what was being done, DeviceLost where the device is lost.
 template <typename Work>
 auto in_context(const std::string& doing, Work&& work) {
     try {
         return work();
+    } catch (const vk::DeviceLostError& error) {
+        throw DeviceLost("Vulkan, " + doing + ": the device is lost: " + error.what());
     } catch (const vk::SystemError& error) {
         throw Error("Vulkan, " + doing + ": " + error.what());
     }

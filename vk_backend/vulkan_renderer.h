@@ -12,6 +12,8 @@
 
 namespace diptych {
 
+struct Gpu;
+
 struct VulkanOptions {
     std::string device;       // "" the best, else an index or a part of the name
     bool validation = false;  // core and synchronisation validation; DIPTYCH_VALIDATION=1 asks for it too
@@ -20,5 +22,8 @@ struct VulkanOptions {
 /// Uploads the scene, builds its acceleration structures and compiles its pipeline; `packed` is not needed afterwards.
 /// Throws NoDevice where no device serves, saying what is missing; Error where one fails.
 std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options);
+
+/// The same on a device that is open already, and that others may use at the same time, from their own threads.
+std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed);
 
 }  // namespace diptych

@@ -6,32 +6,16 @@
 #include <string>
 
 #include "error.h"
+#include "magma.h"
 
 namespace diptych {
 namespace {
 
 using Rgb = std::array<float, 3>;
 
-// Every 17th of the 256 entries of 'magma': linear interpolation between them errs by less than a code of 8 bits or
-// two.
-constexpr std::array<Rgb, 16> magma = {{
-    {0.001462f, 0.000466f, 0.013866f},
-    {0.043830f, 0.033830f, 0.141886f},
-    {0.123833f, 0.067295f, 0.295879f},
-    {0.232077f, 0.059889f, 0.437695f},
-    {0.341482f, 0.080564f, 0.492631f},
-    {0.445163f, 0.122724f, 0.506901f},
-    {0.550287f, 0.161158f, 0.505719f},
-    {0.658483f, 0.196027f, 0.490253f},
-    {0.767398f, 0.233705f, 0.457755f},
-    {0.868793f, 0.287728f, 0.409303f},
-    {0.944006f, 0.377643f, 0.365136f},
-    {0.981000f, 0.498428f, 0.369734f},
-    {0.994738f, 0.624350f, 0.427397f},
-    {0.997228f, 0.747981f, 0.516859f},
-    {0.993170f, 0.870024f, 0.626189f},
-    {0.987053f, 0.991438f, 0.749504f},
-}};
+#define MAGMA_ENTRY(r, g, b) Rgb{r, g, b},
+constexpr std::array magma = {MAGMA_ENTRIES(MAGMA_ENTRY)};
+#undef MAGMA_ENTRY
 constexpr Rgb nonfinite_color = {0.0f, 1.0f, 1.0f};
 
 Rgb magma_at(float t) {

@@ -19,9 +19,14 @@ VulkanOptions test_options() {
     return {.device = "", .validation = has_validation_layer()};
 }
 
+std::shared_ptr<Gpu> open_test_gpu() {
+    return open_gpu({.device = "", .validation = test_options().validation});
+}
+
 std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays,
                                   const BuildLimits& limits) {
-    const Gpu gpu = open_gpu("", test_options().validation);
+    const auto opened = open_test_gpu();
+    const Gpu& gpu = *opened;
     const SceneMemory scene = upload_scene(gpu, packed);
     const BottomLevels bottom = build_bottom_levels(gpu, packed, scene, limits);
     const TopLevel top = build_top_level(gpu, packed, bottom);

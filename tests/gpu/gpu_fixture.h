@@ -17,6 +17,9 @@ namespace diptych::tests {
 /// Validation where the layer is installed, so that every test of a device is one of validation too.
 VulkanOptions test_options();
 
+/// The device itself, likewise.
+std::shared_ptr<Gpu> open_test_gpu();
+
 struct TracedRay {
     shared::Hit hit;
     bool blocked;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "../../shaders/dispatch.h"
+#include "../../shaders/display.h"
 #include "catch.h"
 #include "film_pixel.h"
 #include "path_record.h"
@@ -172,6 +173,19 @@ TEST_CASE("Shared structs lie in memory as the shaders see them") {
         CHECK(found->second == offsets);
     }
     CHECK(layouts.offsets.at("SceneAddresses") == address_offsets());
+}
+
+TEST_CASE("What the display pass is told lies in memory as its shader sees it") {
+    const Layouts layouts = read_layouts(shader_binary("display.comp"));
+    CHECK(layouts.offsets.at("DisplayFilm") ==
+          Offsets{FIELD(DisplayFilm, pixels), FIELD(DisplayFilm, moments), FIELD(DisplayFilm, first_hits),
+                  FIELD(DisplayFilm, reservoirs), FIELD(DisplayFilm, size)});
+    CHECK(layouts.offsets.at("Display") ==
+          Offsets{FIELD(Display, left), FIELD(Display, right), FIELD(Display, size), FIELD(Display, divider),
+                  FIELD(Display, layer), FIELD(Display, flags), FIELD(Display, tonemap), FIELD(Display, exposure),
+                  FIELD(Display, low), FIELD(Display, high)});
+    CHECK(layouts.strides.at("FilmPixel") == sizeof(shared::FilmPixel));
+    CHECK(layouts.strides.at("Reservoir") == sizeof(shared::Reservoir));
 }
 
 TEST_CASE("Arrays of shared structs have the stride of their size") {

@@ -39,7 +39,8 @@ TEST_CASE("A pipeline cache file is read back whole, or not at all once it is da
 TEST_CASE("A pipeline cache is saved and opened again, and a folder that cannot be written to is no error") {
     NEED_VULKAN();
     const std::filesystem::path path = scratch_file();
-    const Gpu gpu = open_gpu("", test_options().validation);
+    const auto opened = open_test_gpu();
+    const Gpu& gpu = *opened;
     {
         const vk::raii::PipelineCache cache = open_pipeline_cache(gpu, path);
         save_pipeline_cache(cache, path);

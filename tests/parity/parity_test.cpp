@@ -153,7 +153,8 @@ std::vector<Difference> compare_group(const Gpu& gpu, const Group& group, std::u
 
 /// Prints the table where asked to.
 void check_parity(std::uint32_t seed, std::uint32_t count, bool print) {
-    const Gpu gpu = open_gpu("", has_validation_layer());
+    const auto opened = open_gpu({.device = "", .validation = has_validation_layer()});
+    const Gpu& gpu = *opened;
     for (const Group& group : all_groups()) {
         const std::vector<Difference> differences = compare_group(gpu, group, seed, count);
         for (std::uint32_t i = 0; i < group.probes.size(); ++i) {

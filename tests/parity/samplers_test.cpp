@@ -65,8 +65,8 @@ private:
 };
 
 struct Bench {
-    Gpu gpu = open_gpu("", has_validation_layer());
-    ComputeShader shader{gpu, test_shader_binary("draws.comp"), 2};
+    std::shared_ptr<Gpu> gpu = open_gpu({.device = "", .validation = has_validation_layer()});
+    ComputeShader shader{*gpu, test_shader_binary("draws.comp"), 2};
     std::int64_t draws = 0;
 };
 
@@ -82,7 +82,7 @@ DrawSetup make_setup(uint kind, uint seed) {
 template <class Pdf>
 void check_directions(Bench& bench, const DrawSetup& setup, const Chart& chart, const Pdf& pdf, int tests,
                       double moved) {
-    DrawStream stream(bench.gpu, bench.shader, setup);
+    DrawStream stream(*bench.gpu, bench.shader, setup);
     std::int64_t apart = 0;
     std::int64_t deltas = 0;
     const auto draw = [&](vec3& w) {
@@ -118,7 +118,7 @@ double turn(const vec3& p) {
 /// Draws whose map to the unit square is uniform there.
 template <class ToSquare>
 void check_uniform(Bench& bench, const DrawSetup& setup, const ToSquare& to_square) {
-    DrawStream stream(bench.gpu, bench.shader, setup);
+    DrawStream stream(*bench.gpu, bench.shader, setup);
     std::vector<double> cells(rows * columns);
     for (std::int64_t k = 0; k < bench.draws; ++k) {
         cells[to_square(stream.next().point)] += 1;
@@ -215,7 +215,7 @@ void check_triangle(Bench& bench, const Lamp& lamp, uint seed) {
             total += weight;
         }
     }
-    DrawStream stream(bench.gpu, bench.shader, setup);
+    DrawStream stream(*bench.gpu, bench.shader, setup);
     std::int64_t wrong_pdfs = 0;
     for (std::int64_t k = 0; k < bench.draws; ++k) {
         const Drawn& d = stream.next();
@@ -255,7 +255,7 @@ void check_alias_table(Bench& bench) {
         expected[i] += static_cast<double>(e.probability) * bench.draws / shared::DRAW_COLUMNS;
         expected[e.alias] += (1.0 - static_cast<double>(e.probability)) * bench.draws / shared::DRAW_COLUMNS;
     }
-    DrawStream stream(bench.gpu, bench.shader, setup);
+    DrawStream stream(*bench.gpu, bench.shader, setup);
     for (std::int64_t k = 0; k < bench.draws; ++k) {
         observed[static_cast<std::size_t>(stream.next().point.x)] += 1;
     }

@@ -1,0 +1,142 @@
+// One pixel of the window's picture from the film pixel beneath it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+
+#include "display.h"
+#include "display_colors.h"
+#include "film_pixel.h"
+#include "resampling_memory.h"
+#include "tonemap.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, rgba8) uniform writeonly image2D picture;
+layout(push_constant, scalar) uniform Push { Display display; };
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pixels { FilmPixel data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Moments { FilmMoments data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FirstHits { FilmFirstHit data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Reservoirs { Reservoir data[]; };
+
+bool is_there(uvec2 address) { return (address.x | address.y) != 0u; }
+bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
+bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
+
+// What a layer says of a pixel: a colour, or a number in x.
+struct Value {
+    bool known;
+    vec3 v;
+};
+
+bool is_colored(uint layer) { return layer <= LAYER_NORMAL; }
+
+vec3 mean_radiance(FilmPixel pixel) {
+    return pixel.samples == 0u ? vec3(0.0f) : (pixel.sum + pixel.compensation) / float(pixel.samples);
+}
+
+// As pixel_standard_error has it, of the luminance; in fp32, which a look at it does not tell.
+float standard_error(FilmPixel pixel, FilmMoments moments) {
+    if (pixel.samples < 2u) {
+        return uintBitsToFloat(0x7fc00000u);
+    }
+    float n = float(pixel.samples);
+    vec3 shift = mean_radiance(pixel) - moments.first;
+    vec3 squares = moments.sum_squares + moments.compensation;
+    vec3 variance = max(squares - n * shift * shift, vec3(0.0f)) / ((n - 1.0f) * n);
+    return luminance(sqrt(variance));
+}
+
+Value value_of(DisplayFilm film, uvec2 picture_pixel) {
+    Value value;
+    value.known = false;
+    value.v = vec3(0.0f);
+    if (!is_there(film.pixels)) {
+        return value;
+    }
+    uvec2 at = min((picture_pixel * 2u + 1u) * film.size / (display.size * 2u), film.size - 1u);
+    uint index = at.y * film.size.x + at.x;
+    uint layer = display.layer;
+    if (layer == LAYER_RADIANCE || layer == LAYER_SAMPLES || layer == LAYER_NONFINITE) {
+        FilmPixel pixel = Pixels(film.pixels).data[index];
+        value.known = true;
+        value.v = layer == LAYER_RADIANCE  ? mean_radiance(pixel)
+                  : layer == LAYER_SAMPLES ? vec3(float(pixel.samples))
+                                           : vec3(float(pixel.nonfinite));
+    } else if (layer == LAYER_STANDARD_ERROR && is_there(film.moments)) {
+        value.known = true;
+        value.v = vec3(standard_error(Pixels(film.pixels).data[index], Moments(film.moments).data[index]));
+    } else if ((layer == LAYER_ALBEDO || layer == LAYER_NORMAL || layer == LAYER_DEPTH) && is_there(film.first_hits)) {
+        FilmFirstHit hit = FirstHits(film.first_hits).data[index];
+        value.known = true;
+        value.v = layer == LAYER_ALBEDO ? hit.albedo : layer == LAYER_NORMAL ? hit.normal : vec3(hit.depth);
+    } else if (layer >= LAYER_LIGHT_ID && is_there(film.reservoirs)) {
+        Reservoir r = Reservoirs(film.reservoirs).data[index];
+        value.known = true;
+        value.v = layer == LAYER_LIGHT_ID      ? vec3(uintBitsToFloat(r.point.light))
+                  : layer == LAYER_RESERVOIR_M ? vec3(r.confidence)
+                                               : vec3(r.weight);
+    }
+    return value;
+}
+
+vec3 scalar_color(float x) {
+    if (!is_finite(x)) {
+        return nonfinite_color();
+    }
+    bool logarithmic = (display.flags & DISPLAY_LOGARITHMIC) != 0u;
+    float t = logarithmic ? log2(max(x, display.low) / display.low) / log2(display.high / display.low)
+                          : (x - display.low) / (display.high - display.low);
+    return ramp_color(t);
+}
+
+vec3 color_of(vec3 v) {
+    if (display.layer == LAYER_RADIANCE) {
+        return srgb_encode(tonemap(display.tonemap, display.exposure * v));
+    }
+    if (display.layer == LAYER_ALBEDO) {
+        return srgb_encode(v);
+    }
+    if (display.layer == LAYER_NORMAL) {
+        return 0.5f * v + 0.5f;
+    }
+    if (display.layer == LAYER_LIGHT_ID) {
+        uint id = floatBitsToUint(v.x);
+        return id == NONE ? vec3(0.0f) : id_color(id);
+    }
+    return scalar_color(v.x);
+}
+
+vec3 difference_color(vec3 left, vec3 right) {
+    if (display.layer == LAYER_LIGHT_ID) {
+        return floatBitsToUint(left.x) == floatBitsToUint(right.x) ? vec3(0.0f) : vec3(1.0f);
+    }
+    float difference = is_colored(display.layer) ? luminance(left - right) : left.x - right.x;
+    return is_finite(difference) ? signed_color(difference / display.high) : nonfinite_color();
+}
+
+void main() {
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (pixel.x >= display.size.x || pixel.y >= display.size.y) {
+        return;
+    }
+    bool difference = (display.flags & DISPLAY_DIFFERENCE) != 0u;
+    bool on_right = !difference && pixel.x >= display.divider;
+    Value shown;
+    if (on_right) {
+        shown = value_of(display.right, pixel);
+    } else {
+        shown = value_of(display.left, pixel);
+    }
+    vec3 color = checkerboard(pixel);
+    if (difference) {
+        Value other = value_of(display.right, pixel);
+        if (shown.known && other.known) {
+            color = difference_color(shown.v, other.v);
+        }
+    } else if (shown.known) {
+        color = color_of(shown.v);
+    }
+    imageStore(picture, ivec2(pixel), vec4(color, 1.0f));
+}

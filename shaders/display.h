@@ -1,0 +1,50 @@
+// What the display pass is told; in scalar layout, on both sides of the bus.
+#ifndef DISPLAY_H
+#define DISPLAY_H
+
+#include "compat.h"
+
+SHARED_BEGIN
+
+/// Device addresses as pairs of words, low first; {0, 0}: there is no such buffer.
+struct DisplayFilm {
+    uvec2 pixels;
+    uvec2 moments;
+    uvec2 first_hits;
+    uvec2 reservoirs;  // of the set to be shown
+    uvec2 size;        // pixels
+};
+ASSERT_SIZE(DisplayFilm, 40);
+
+/// The push constants.
+struct Display {
+    DisplayFilm left;
+    DisplayFilm right;
+    uvec2 size;      // of the picture, pixels
+    uint divider;    // column from which on `right` is seen
+    uint layer;      // LAYER_…
+    uint flags;      // DISPLAY_…
+    uint tonemap;    // TONEMAP_…
+    float exposure;  // factor of radiance
+    float low;       // of a scalar layer's ramp
+    float high;
+};
+ASSERT_SIZE(Display, 116);
+
+CONST uint DISPLAY_DIFFERENCE = 1u;   // left - right
+CONST uint DISPLAY_LOGARITHMIC = 2u;  // ramp
+
+CONST uint LAYER_RADIANCE = 0u;
+CONST uint LAYER_ALBEDO = 1u;
+CONST uint LAYER_NORMAL = 2u;
+CONST uint LAYER_DEPTH = 3u;
+CONST uint LAYER_STANDARD_ERROR = 4u;
+CONST uint LAYER_SAMPLES = 5u;
+CONST uint LAYER_NONFINITE = 6u;
+CONST uint LAYER_LIGHT_ID = 7u;
+CONST uint LAYER_RESERVOIR_M = 8u;
+CONST uint LAYER_RESERVOIR_W = 9u;
+
+SHARED_END
+
+#endif

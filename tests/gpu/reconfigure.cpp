@@ -1,0 +1,186 @@
+// Other settings of the same scene, without building it anew.
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include "error.h"
+#include "gpu_fixture.h"
+#include "path_renderer.h"
+#include "scene/generate.h"
+
+namespace diptych::tests {
+namespace {
+
+RenderSettings small_settings() {
+    RenderSettings settings;
+    settings.width = 24;
+    settings.height = 18;
+    settings.max_depth = 3;
+    return settings;
+}
+
+Film shoot(Renderer& renderer) {
+    const std::atomic<bool> cancel = false;
+    renderer.render(0, 3, cancel);
+    return renderer.film();
+}
+
+template <typename T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+bool same_film(const Film& a, const Film& b) {
+    return a.width == b.width && a.height == b.height && same_bytes(a.pixels, b.pixels) &&
+           same_bytes(a.moments, b.moments) && same_bytes(a.first_hits, b.first_hits);
+}
+
+/// One step of a walk: what it changes of the settings and of the scene's surroundings.
+struct Change {
+    const char* name;
+    std::function<void(RenderSettings&, Scene&)> apply;
+};
+
+Environment gradient_sky(float blue) {
+    Environment sky;
+    sky.kind = Environment::Kind::map;
+    sky.width = 8;
+    sky.height = 4;
+    for (int i = 0; i < 32; ++i) {
+        sky.texels.emplace_back(0.1F * static_cast<float>(i), 0.5F, blue);
+    }
+    return sky;
+}
+
+const std::vector<Change>& walk() {
+    static const std::vector<Change> changes = {
+        {"integrator brdf", [](RenderSettings& s, Scene&) { s.integrator = Integrator::brdf; }},
+        {"layers", [](RenderSettings& s, Scene&) { s.standard_error = s.first_hit_layers = true; }},
+        {"restir", [](RenderSettings& s, Scene&) { s.integrator = Integrator::restir; }},
+        {"more passes", [](RenderSettings& s, Scene&) { s.resampling.spatial_passes = 2; }},
+        {"no temporal reuse", [](RenderSettings& s, Scene&) { s.resampling.temporal = false; }},
+        {"size", [](RenderSettings& s, Scene&) { s.width = 17, s.height = 11; }},
+        {"moves", [](RenderSettings& s, Scene&) { s.moves = s.resampling.temporal = true; }},
+        {"sky", [](RenderSettings&, Scene& scene) { scene.environment = gradient_sky(1); }},
+        {"another sky of that size", [](RenderSettings&, Scene& scene) { scene.environment = gradient_sky(4); }},
+        {"still", [](RenderSettings& s, Scene&) { s.moves = false; }},
+        {"ris", [](RenderSettings& s, Scene&) { s.integrator = Integrator::ris; }},
+        {"Blinn-Phong, path, seed",
+         [](RenderSettings& s, Scene&) {
+             s.brdf = BrdfModel::blinn_phong;
+             s.integrator = Integrator::path;
+             s.seed = 9;
+         }},
+        {"sampler and depth",
+         [](RenderSettings& s, Scene&) {
+             s.sampler = SamplerKind::independent;
+             s.max_depth = 1;
+         }},
+        {"sun",
+         [](RenderSettings&, Scene& scene) {
+             PunctualLight sun;
+             sun.type = PunctualType::directional;
+             sun.intensity = glm::vec3(3);
+             scene.lights.push_back(sun);
+         }},
+        {"camera", [](RenderSettings&,
+                      Scene& scene) { scene.cameras.front().camera_to_world[3] += glm::dvec4(0.1, 0.2, 0.3, 0); }},
+        {"generic", [](RenderSettings& s, Scene&) { s.generic = true; }},
+        {"no layers", [](RenderSettings& s, Scene&) { s.generic = s.standard_error = s.first_hit_layers = false; }},
+    };
+    return changes;
+}
+
+}  // namespace
+
+TEST_CASE("A reconfigured renderer has the bits of a new one, on the device") {
+    NEED_VULKAN();
+    const std::shared_ptr<Gpu> gpu = open_test_gpu();
+    const std::string name = GENERATE("cornell", "courtyard");
+    Scene scene = generate_scene(name).scene;
+    RenderSettings settings = small_settings();
+    PathRenderer renderer(gpu, pack_scene(scene, settings));
+    shoot(renderer);
+    std::size_t changed = 0;
+    Film before = renderer.film();
+    for (const Change& change : walk()) {
+        CAPTURE(name, change.name);
+        change.apply(settings, scene);
+        const PackedScene packed = pack_scene(scene, settings);
+        renderer.reconfigure(packed);
+        const Film film = shoot(renderer);
+        PathRenderer fresh(gpu, packed);
+        CHECK(same_film(film, shoot(fresh)));
+        CHECK(renderer.costs().bytes == fresh.costs().bytes);
+        CHECK(renderer.costs().acceleration_bytes == fresh.costs().acceleration_bytes);
+        changed += same_film(film, before) ? 0 : 1;
+        before = film;
+    }
+    CHECK(changed >= walk().size() - 3);
+    check_no_validation_messages();
+}
+
+TEST_CASE("Settings met before compile nothing, on the device") {
+    NEED_VULKAN();
+    const Scene scene = generate_scene("cornell").scene;
+    RenderSettings path = small_settings();
+    RenderSettings restir = path;
+    restir.integrator = Integrator::restir;
+    PathRenderer renderer(open_test_gpu(), pack_scene(scene, path));
+    CHECK(renderer.pipelines_compiled() == 1);
+    const Film first = shoot(renderer);
+    renderer.reconfigure(pack_scene(scene, restir));
+    const std::size_t compiled = renderer.pipelines_compiled();
+    CHECK(compiled == 5);
+    const Film resampled = shoot(renderer);
+    renderer.reconfigure(pack_scene(scene, path));
+    CHECK(same_film(shoot(renderer), first));
+    renderer.reconfigure(pack_scene(scene, restir));
+    CHECK(same_film(shoot(renderer), resampled));
+    CHECK(renderer.pipelines_compiled() == compiled);
+    check_no_validation_messages();
+}
+
+TEST_CASE("A renderer that was reconfigured replays its own paths and names its own passes, on the device") {
+    NEED_VULKAN();
+    const Scene scene = generate_scene("cornell").scene;
+    RenderSettings settings = small_settings();
+    const std::shared_ptr<Gpu> gpu = open_test_gpu();
+    PathRenderer renderer(gpu, pack_scene(scene, settings));
+    const std::vector<shared::PathQuery> queries = {{.pixel = {3, 4}, .sample_index = 0},
+                                                    {.pixel = {12, 9}, .sample_index = 2}};
+    const std::vector<shared::PathSummary> shallow = renderer.summarize_paths(queries);
+    settings.max_depth = 6;
+    settings.first_hit_layers = true;
+    const PackedScene packed = pack_scene(scene, settings);
+    renderer.reconfigure(packed);
+    const std::vector<shared::PathSummary> deep = renderer.summarize_paths(queries);
+    PathRenderer fresh(gpu, packed);
+    CHECK(same_bytes(deep, fresh.summarize_paths(queries)));
+    CHECK_FALSE(same_bytes(deep, shallow));
+    settings.integrator = Integrator::ris;
+    renderer.reconfigure(pack_scene(scene, settings));
+    shoot(renderer);
+    const std::vector<PassTime> passes = renderer.pass_times();
+    if (!passes.empty()) {
+        REQUIRE(passes.size() == 2);
+        CHECK(passes[0].pass == "candidates");
+        CHECK(passes[0].seconds > 0);
+        CHECK(passes[1].seconds > 0);
+    }
+    check_no_validation_messages();
+}
+
+TEST_CASE("A renderer refuses another scene's settings, and keeps its own, on the device") {
+    NEED_VULKAN();
+    const RenderSettings settings = small_settings();
+    const std::shared_ptr<Gpu> gpu = open_test_gpu();
+    PathRenderer renderer(gpu, generated_scene("cornell", settings));
+    const Film before = shoot(renderer);
+    CHECK_THROWS_WITH(renderer.reconfigure(generated_scene("courtyard", settings)), Catch::Contains("another scene"));
+    CHECK(same_film(renderer.film(), before));
+    check_no_validation_messages();
+}
+
+}  // namespace diptych::tests
