@@ -22,8 +22,8 @@ Buffer record_buffer(const Gpu& gpu, std::uint64_t bytes) {
 
 }  // namespace
 
-void PathRenderer::trace_listed(Queries queries, std::uint32_t vertices_per_path, const Buffer& vertices,
-                                const Buffer& summaries) {
+void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& constants, std::uint32_t vertices_per_path,
+                                const Buffer& vertices, const Buffer& summaries) {
     const TracePipeline& recorder = pipeline(shader_binary("record.rgen"));
     if (!recording_speed_) {
         recording_speed_.emplace(dispatch_seconds_);
@@ -36,7 +36,7 @@ void PathRenderer::trace_listed(Queries queries, std::uint32_t vertices_per_path
     all.path_queries = list.address;
     all.path_vertices = vertices.address;
     all.path_summaries = summaries.address;
-    const Bindings bindings = make_bindings(*gpu_, layout_, *top_.structure, *top_.structure, all, constants_);
+    const Bindings bindings = make_bindings(*gpu_, layout_, *top_.structure, *top_.structure, all, constants);
     TimedQueue queue(*gpu_, [&](std::uint64_t work, double seconds) { recording_speed_->learn(work, seconds); });
     for (std::uint64_t first = 0; first < queries.size();) {
         const std::uint64_t limit = gpu_->ray_tracing.maxRayDispatchInvocationCount;
@@ -54,33 +54,29 @@ void PathRenderer::trace_listed(Queries queries, std::uint32_t vertices_per_path
 }
 
 std::vector<shared::PathSummary> PathRenderer::summarize_paths(Queries queries) {
-    return in_context("tracing paths", [&] {
-        constexpr std::size_t at_a_time = most_bytes / sizeof(shared::PathSummary);
-        std::vector<shared::PathSummary> found;
-        found.reserve(queries.size());
-        for (std::size_t first = 0; first < queries.size(); first += at_a_time) {
-            const Queries part = queries.subspan(first, std::min(at_a_time, queries.size() - first));
-            const Buffer summaries = record_buffer(*gpu_, part.size() * sizeof(shared::PathSummary));
-            trace_listed(part, 0, Buffer{}, summaries);
-            const auto read = read_array<shared::PathSummary>(*gpu_, summaries);
-            found.insert(found.end(), read.begin(), read.end());
-        }
-        return found;
-    });
+    return in_context("tracing paths", [&] { return summarize(queries, constants_); });
+}
+
+std::vector<shared::PathSummary> PathRenderer::summarize(Queries queries, const shared::RenderConstants& constants) {
+    constexpr std::size_t at_a_time = most_bytes / sizeof(shared::PathSummary);
+    std::vector<shared::PathSummary> found;
+    found.reserve(queries.size());
+    for (std::size_t first = 0; first < queries.size(); first += at_a_time) {
+        const Queries part = queries.subspan(first, std::min(at_a_time, queries.size() - first));
+        const Buffer summaries = record_buffer(*gpu_, part.size() * sizeof(shared::PathSummary));
+        trace_listed(part, constants, 0, Buffer{}, summaries);
+        const auto read = read_array<shared::PathSummary>(*gpu_, summaries);
+        found.insert(found.end(), read.begin(), read.end());
+    }
+    return found;
 }
 
 std::vector<RecordedPath> PathRenderer::record_paths(Queries queries, std::optional<std::uint32_t> seed) {
-    if (seed && *seed != constants_.seed) {
-        const std::uint32_t of_film = std::exchange(constants_.seed, *seed);
-        replace_constants(*gpu_, bindings_, constants_);
-        std::vector<RecordedPath> paths = record_paths(queries);
-        constants_.seed = of_film;
-        replace_constants(*gpu_, bindings_, constants_);
-        return paths;
-    }
+    shared::RenderConstants constants = constants_;
+    constants.seed = seed.value_or(constants.seed);
     return in_context("recording paths", [&] {
         // A path has one vertex more than it scatters; few come near the limit, so their lengths are asked for first.
-        const std::vector<shared::PathSummary> lengths = summarize_paths(queries);
+        const std::vector<shared::PathSummary> lengths = summarize(queries, constants);
         std::vector<RecordedPath> paths(queries.size());
         for (std::size_t first = 0; first < queries.size();) {
             std::uint32_t longest = 1;
@@ -96,7 +92,7 @@ std::vector<RecordedPath> PathRenderer::record_paths(Queries queries, std::optio
             const std::size_t count = end - first;
             const Buffer vertices = record_buffer(*gpu_, count * longest * sizeof(shared::PathVertexRecord));
             const Buffer summaries = record_buffer(*gpu_, count * sizeof(shared::PathSummary));
-            trace_listed(queries.subspan(first, count), longest, vertices, summaries);
+            trace_listed(queries.subspan(first, count), constants, longest, vertices, summaries);
             const auto found = read_array<shared::PathSummary>(*gpu_, summaries);
             const auto records = read_array<shared::PathVertexRecord>(*gpu_, vertices);
             for (std::size_t i = 0; i < count; ++i) {

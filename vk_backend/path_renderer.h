@@ -71,8 +71,10 @@ private:
     std::uint64_t slice_budget() const;
     bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
     void warm_up(const TracePipeline& pipeline, const Bindings& bindings) const;
-    void trace_listed(std::span<const shared::PathQuery> queries, std::uint32_t vertices_per_path,
-                      const Buffer& vertices, const Buffer& summaries);
+    std::vector<shared::PathSummary> summarize(std::span<const shared::PathQuery> queries,
+                                               const shared::RenderConstants& constants);
+    void trace_listed(std::span<const shared::PathQuery> queries, const shared::RenderConstants& constants,
+                      std::uint32_t vertices_per_path, const Buffer& vertices, const Buffer& summaries);
 
     std::shared_ptr<Gpu> gpu_;
     shared::RenderConstants constants_;

@@ -13,6 +13,14 @@ void require_same(const Scene& scene, std::size_t now, std::size_t then, const c
     }
 }
 
+/// The environment's tables hold for any scale that is a multiple of the one they were built under, but 0.
+void require_same_tint(const Scene& scene, const PackedScene& packed) {
+    const glm::vec3 off = environment_tint(scene.environment) - packed.environment_tint;
+    if (glm::dot(off, off) > 1e-10F) {
+        throw Error(scene.name + ": environment: is of another tint than at the moment before, or was dark");
+    }
+}
+
 /// Which materials' emission is another now.
 std::vector<bool> move_materials(const Scene& scene, PackedScene& packed) {
     std::vector<bool> changed(packed.materials.size(), false);
@@ -62,6 +70,7 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     if (!packed.scene_instances.empty() && packed.scene_instances.back() >= scene.instances.size()) {
         require_same(scene, scene.instances.size(), packed.scene_instances.back() + 1U, "instances");
     }
+    require_same_tint(scene, packed);
     keep_previous(packed);
     const std::vector<bool> materials = move_materials(scene, packed);
     const std::vector<bool> instances = move_instances(scene, packed);
@@ -81,6 +90,9 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     for (std::size_t i = 0; i < before.size(); ++i) {
         packed.punctual_lights[i].pmf = before[i].pmf;
     }
+    const double environment_luminance = packed.environment_luminance;
+    place_environment(scene, packed);
+    weigh = weigh || environment_luminance != packed.environment_luminance;
     if (weigh || !same_lights(before, packed.punctual_lights)) {
         weigh_lights(packed);
     }

@@ -92,12 +92,35 @@ PackedScene pack_scene(const Scene& scene, const RenderSettings& settings) {
     pack_meshes(scene, packed);
     pack_instances(scene, packed);
     pack_camera(scene, settings, packed);
-    packed.environment_luminance = pack_environment(scene, settings, packed);
+    pack_environment(scene, settings, packed);
     pack_lights(scene, packed);
     keep_previous(packed);
     // A reader of the last vertex may fetch 16 bytes at once, as Embree does.
     packed.positions.emplace_back(0.0F);
     return packed;
+}
+
+bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
+    check_atlas(settings);
+    constexpr std::uint32_t of_arrays = shared::FEATURE_TEXTURES | shared::FEATURE_NORMAL_MAPS | shared::FEATURE_SECOND_UV;
+    const std::uint32_t features = needed_features(scene, settings);
+    const bool lays_out_lights = settings.integrator != Integrator::brdf;
+    if (((features ^ packed.features) & of_arrays) != 0 ||
+        lays_out_lights != (packed.constants.integrator != shared::INTEGRATOR_BRDF) ||
+        environment_tint(scene.environment) != packed.environment_tint ||
+        scene.lights.size() != packed.punctual_lights.size()) {
+        return false;
+    }
+    packed.features = features;
+    packed.keeps_previous = settings.moves;
+    pack_settings(settings, packed.constants);
+    pack_camera(scene, settings, packed);
+    packed.constants.previous_camera = {};
+    packed.previous_instances.clear();
+    packed.previous_emissive_triangles.clear();
+    packed.previous_punctual_lights.clear();
+    keep_previous(packed);
+    return true;
 }
 
 }  // namespace diptych

@@ -48,6 +48,8 @@ struct PackedScene : shared::SceneBuffers {
     glm::dvec3 origin{0};                         // world space of the file minus this is ours
     double radius = 1;                            // of the scene as first packed, for picking probabilities
     double environment_luminance = 0;             // mean over the sphere
+    double environment_mean = 0;                  // the same where the largest component of its scale is 1
+    glm::vec3 environment_tint{0};                // its scale over the largest component; 0 where that is 0
     std::vector<glm::dvec3> mesh_centers;         // parallel to meshes: what was taken off their vertices
     std::vector<std::uint32_t> scene_instances;   // parallel to instances: index into Scene::instances
     std::vector<double> emitter_means;            // parallel to emissive_triangles: mean luminance of what they emit
@@ -68,9 +70,14 @@ std::uint64_t buffer_bytes(const PackedScene& packed);
 /// geometry's first vertex. Throws Error where the scene holds more than 32-bit indices can name.
 PackedScene pack_scene(const Scene& scene, const RenderSettings& settings);
 
-/// Overwrites what moves (MOVING_BUFFERS and the camera) with the same scene at another moment; nothing else is touched,
-/// and every index and count stays, light ids included. Origin and radius are those of pack_scene, so that a moment
-/// depends on no other. Keeps constants.seed. Throws Error where the scene is another one.
+/// Overwrites what moves (MOVING_BUFFERS, the camera, rotation and scale of the environment) with the same scene at another moment; nothing
+/// else is touched, and every index and count stays, light ids included. Origin and radius are those of pack_scene, so
+/// that a moment depends on no other. Keeps constants.seed. Throws Error where the scene is another one, an environment that was dark or
+/// of another tint included.
 void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+
+/// Goes on with other settings where no array depends on them: size, depth, sampler, weights, seed. As pack_scene under them would have it,
+/// but for the origin, which stays. False, and nothing is done, where pack_scene must run anew.
+bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 }  // namespace diptych
