@@ -2,23 +2,13 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "display_pass.h"
 #include "view/panel_worker.h"
 #include "view/view_state.h"
+#include "window/legend.h"
 
 namespace diptych::app {
-
-/// What a ramp of colours means.
-struct Legend {
-    bool shown = false;
-    bool difference = false;  // from -high to high
-    bool logarithmic = false;
-    double low = 0;
-    double high = 1;
-    std::string unit;
-};
 
 /// One panel's film on the device, and what is known of it.
 struct PanelFilm {

@@ -12,6 +12,9 @@ void draw_interface(const Theme& theme, const InterfaceFacts& facts, ViewState& 
     if (state.shown.panel == ShownPanel::split) {
         draw_divider(theme, state, interface);
     }
+    if (facts.legend.shown) {
+        draw_legend(theme, facts.legend, state, interface);
+    }
     if (interface.visible) {
         draw_top_bar(theme, facts, state, interface);
         if (interface.settings) {

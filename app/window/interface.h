@@ -11,6 +11,7 @@
 #include "view/panel_worker.h"
 #include "view/verification_light.h"
 #include "view/view_state.h"
+#include "window/legend.h"
 #include "window/pixel_replay.h"
 #include "window/theme.h"
 
@@ -30,6 +31,7 @@ struct InterfaceFacts {
     const LoadedScene* scene = nullptr;
     std::array<PanelFacts, 2> panels;  // CPU, Vulkan
     VerificationLight light;
+    Legend legend;
     double frames_per_second = 0;  // drawn
     std::string loading;           // file
     double now = 0;                // seconds
@@ -82,6 +84,7 @@ void draw_animation_bar(const Theme& theme, ViewState& state, const InterfaceSta
 void draw_replay(const Theme& theme, const PixelReplay& replay, InterfaceState& interface);
 void draw_messages(const Theme& theme, const InterfaceFacts& facts, InterfaceState& interface);
 void draw_help(const Theme& theme, InterfaceState& interface);
+void draw_legend(const Theme& theme, const Legend& legend, const ViewState& state, const InterfaceState& interface);
 void draw_divider(const Theme& theme, ViewState& state, InterfaceState& interface);
 
 /// Whether samples are taken of both panels at once: split or difference.

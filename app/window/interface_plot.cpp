@@ -59,7 +59,7 @@ void draw_grid(const Theme& theme, const Axes& axes, ImVec2 at, ImVec2 size) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImU32 line = packed(colors::line);
     const ImU32 text = packed(colors::muted);
-    const float small = theme.small->FontSize;
+    const float small = theme.small->FontSize * ImGui::GetIO().FontGlobalScale;
     const int every = axes.error.hi - axes.error.lo > 4 ? 2 : 1;
     for (int decade = static_cast<int>(axes.error.lo); decade <= static_cast<int>(axes.error.hi); ++decade) {
         const float y = at.y + size.y * (1 - axes.error.place(std::pow(10.0, decade)));

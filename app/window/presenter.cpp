@@ -2,8 +2,16 @@
 
 namespace diptych::app {
 
+namespace {
+
+vk::raii::SurfaceKHR make_surface(const Gpu& gpu, const Window& window) {
+    return {gpu.vulkan.instance, window.make_surface(*gpu.vulkan.instance)};
+}
+
+}  // namespace
+
 Presenter::Presenter(std::shared_ptr<Gpu> gpu, const Window& window)
-    : gpu_(std::move(gpu)), window_(window), surface_(window.make_surface(gpu_->vulkan.instance)),
+    : gpu_(std::move(gpu)), window_(window), surface_(make_surface(*gpu_, window)),
       display_(make_display_pass(*gpu_)), slots_{FrameSlot(*gpu_), FrameSlot(*gpu_)} {
     if (!presents_to(*gpu_, *surface_)) {
         throw NoDevice("no window: " + gpu_->name + " cannot show anything on this display");
@@ -53,7 +61,7 @@ bool Presenter::draw(const DisplayRequest& request, vk::Extent2D size, const ImD
     const auto lost = [&] {
         swapchain_.reset();
         surface_ = nullptr;
-        surface_ = window_.make_surface(gpu_->vulkan.instance);
+        surface_ = make_surface(*gpu_, window_);
         stale_ = true;
         return false;
     };

@@ -58,7 +58,7 @@ void set_colors(ImGuiStyle& style) {
 
 }  // namespace
 
-Theme apply_theme(float scale) {
+Theme apply_theme(float scale, float ratio) {
     Theme theme;
     theme.scale = scale;
     theme.unit *= scale;
@@ -66,10 +66,11 @@ Theme apply_theme(float scale) {
     theme.panel *= scale;
     theme.bar *= scale;
     ImGui::GetIO().Fonts->Clear();
-    theme.body = add_font("Roboto-Regular.ttf", 14 * scale);
-    theme.strong = add_font("Roboto-Medium.ttf", 14 * scale);
-    theme.small = add_font("Roboto-Regular.ttf", 12 * scale);
+    theme.body = add_font("Roboto-Regular.ttf", 14 * scale * ratio);
+    theme.strong = add_font("Roboto-Medium.ttf", 14 * scale * ratio);
+    theme.small = add_font("Roboto-Regular.ttf", 12 * scale * ratio);
     ImGui::GetIO().Fonts->Build();
+    ImGui::GetIO().FontGlobalScale = 1 / ratio;
 
     ImGuiStyle style;
     style.WindowPadding = {theme.units(3), theme.units(3)};

@@ -1,7 +1,10 @@
 #include "window/window.h"
 
 #define GLFW_INCLUDE_NONE
+#include <vulkan/vulkan_core.h>
+// After Vulkan's own header, which makes it declare surfaces.
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
@@ -143,13 +146,13 @@ void Window::set_clipboard(const std::string& text) {
     glfwSetClipboardString(handle_, text.c_str());
 }
 
-vk::raii::SurfaceKHR Window::make_surface(const vk::raii::Instance& instance) const {
+VkSurfaceKHR_T* Window::make_surface(VkInstance_T* instance) const {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
-    const VkResult result = glfwCreateWindowSurface(*instance, handle_, nullptr, &surface);
+    const VkResult result = glfwCreateWindowSurface(instance, handle_, nullptr, &surface);
     if (result != VK_SUCCESS) {
-        throw Error("no Vulkan surface for the window: " + vk::to_string(static_cast<vk::Result>(result)) + ", " + glfw_reason());
+        throw Error(fmt::format("no Vulkan surface for the window: {} (VkResult {})", glfw_reason(), static_cast<int>(result)));
     }
-    return {instance, surface};
+    return surface;
 }
 
 std::vector<std::string> surface_extensions() {

@@ -1,15 +1,14 @@
 // The window, its input and its clipboard, over GLFW.
 #pragma once
 
-#include <array>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "vulkan_headers.h"
-
 struct GLFWwindow;
+struct VkInstance_T;
+struct VkSurfaceKHR_T;
 
 namespace diptych::app {
 
@@ -65,8 +64,8 @@ public:
     void set_title(const std::string& title);
     void set_clipboard(const std::string& text);
 
-    /// Throws Error.
-    vk::raii::SurfaceKHR make_surface(const vk::raii::Instance& instance) const;
+    /// A Vulkan surface (VkInstance, VkSurfaceKHR), which is the caller's. Throws Error.
+    VkSurfaceKHR_T* make_surface(VkInstance_T* instance) const;
 
     GLFWwindow* handle() const { return handle_; }
 
