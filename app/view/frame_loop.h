@@ -82,7 +82,4 @@ private:
     std::array<std::string, 2> reported_;  // panels' errors
 };
 
-/// The request that `render` repeats this state with: viewpoint, time and sun included.
-RenderRequest request_of(const RenderedState& state, const Scene& scene);
-
 }  // namespace diptych::app
