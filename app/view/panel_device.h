@@ -1,7 +1,6 @@
 // What a panel shows of a renderer on a device, where the program was built with one.
 #pragma once
 
-#include <exception>
 #include <memory>
 
 #include "render/renderer.h"
@@ -15,10 +14,7 @@ namespace diptych::app {
 /// The renderer's film as it lies on its device; null where it lies on the host.
 std::shared_ptr<const DeviceFilm> device_film_of(const Renderer& renderer);
 
-/// Whether the error means that the device is gone, and every renderer on it.
-bool is_device_lost(const std::exception& error);
-
-/// Lets a renderer cut its work so that none of its dispatches holds the display up for longer, seconds.
-void set_dispatch_seconds(Renderer& renderer, double seconds);
+/// Has the renderer cut its work so that none of its dispatches holds the display up for longer than so many seconds.
+void aim_dispatches(Renderer& renderer, double seconds);
 
 }  // namespace diptych::app

@@ -33,7 +33,9 @@ public:
     /// Brings the renderer to the job's state by the least that this takes.
     void apply(const ViewJob& job);
 
-    bool wants_samples() const { return job_ && !job_->paused && renderer_ && shot_.error.empty(); }
+    bool wants_samples() const {
+        return job_ && !job_->paused && renderer_ && shot_.error.empty() && samples_left() > 0;
+    }
 
     /// Whether the job is one of many that follow one another, and has shown nothing yet.
     bool owes_first_sample() const { return wants_samples() && job_->moving && samples_ == 0; }
@@ -69,6 +71,7 @@ private:
     void publish(bool first);
     void look();
     void say_busy(const char* what);
+    std::uint32_t samples_left() const { return ~0U - first_ - samples_; }  // that still have an index
     RenderSettings settings() const { return panel_settings(job_->state.request.settings, seed_offset_, divisor_); }
 
     RendererFactory factory_;
@@ -81,6 +84,7 @@ private:
     std::unique_ptr<Renderer> renderer_;
     PanelShot shot_;
     PanelSpeed speed_;
+    bool relearns_ = false;  // the speed is that of other settings
     int divisor_ = 1;
     std::uint32_t first_ = 0;    // index of the picture's first sample
     std::uint32_t samples_ = 0;  // of the picture

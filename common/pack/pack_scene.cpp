@@ -111,10 +111,10 @@ bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedS
         scene.lights.size() != packed.punctual_lights.size()) {
         return false;
     }
+    pack_moment(scene, settings, packed);
     packed.features = features;
     packed.keeps_previous = settings.moves;
     pack_settings(settings, packed.constants);
-    pack_camera(scene, settings, packed);
     packed.constants.previous_camera = {};
     packed.previous_instances.clear();
     packed.previous_emissive_triangles.clear();

@@ -76,8 +76,9 @@ PackedScene pack_scene(const Scene& scene, const RenderSettings& settings);
 /// of another tint included.
 void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
-/// Goes on with other settings where no array depends on them: size, depth, sampler, weights, seed. As pack_scene under them would have it,
-/// but for the origin, which stays. False, and nothing is done, where pack_scene must run anew.
+/// Goes on with other settings where no array's size or order depends on them: size, depth, sampler, weights, seed, most integrators. The
+/// scene may stand at another moment, which becomes the moment before as well. As pack_scene of it would have it, but for
+/// origin and radius, which stay. False, and nothing is done, where pack_scene must run anew.
 bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 }  // namespace diptych
