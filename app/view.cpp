@@ -12,6 +12,7 @@
 #include "scene_setup.h"
 #include "view/headless.h"
 #include "view/loader.h"
+#include "view/shown_names.h"
 #if DIPTYCH_VIEW
 #include "window/view_window.h"
 #endif
@@ -39,27 +40,12 @@ struct Options {
     std::uint32_t frames = 120;
     std::string output;
     std::string log;
+    std::string folder = ".";
     double interface_scale = 0;
     bool json = false;
     std::vector<CLI::Option*> headless_options;
     std::vector<CLI::Option*> window_options;
 };
-
-ShownPanel panel_from_name(const std::string& name) {
-    if (name == "vulkan") {
-        return ShownPanel::vulkan;
-    }
-    if (name == "cpu") {
-        return ShownPanel::cpu;
-    }
-    if (name == "split") {
-        return ShownPanel::split;
-    }
-    if (name == "difference") {
-        return ShownPanel::difference;
-    }
-    throw Error(fmt::format("--panel {}: there are only vulkan, cpu, split, difference", name));
-}
 
 /// Options that mean nothing to the kind of view.
 void refuse_given(const std::vector<CLI::Option*>& options, const char* reason) {
@@ -99,31 +85,42 @@ void check_options(Options& options) {
     settings.first_hit_layers = true;
 }
 
+/// Before the scene is loaded, which may take its time.
+void require_display() {
+#if DIPTYCH_VIEW
+    check_display();
+#else
+    throw NoDevice("view: this program was built without a window (DIPTYCH_VIEW=OFF); use view --headless, render --frames or "
+                   "render --live HOST:PORT");
+#endif
+}
+
 int show(const Options& options, ShownPanel panel, LoadedScene scene) {
 #if DIPTYCH_VIEW
     WindowOptions window;
     window.panel = panel;
-    window.has_cpu = panel != ShownPanel::vulkan;
-    window.has_vulkan = panel != ShownPanel::cpu;
     window.width = scene.request.settings.width;
     window.height = scene.request.settings.height;
     window.scale = options.scale;
     window.interface_scale = static_cast<float>(options.interface_scale);
     window.frames_per_second = options.frames_per_second;
     window.log = options.log;
+    window.folder = options.folder;
     return show_window(window, std::move(scene));
 #else
     static_cast<void>(options);
     static_cast<void>(panel);
     static_cast<void>(scene);
-    throw NoDevice("view: this program was built without a window (DIPTYCH_VIEW=OFF); use view --headless, render --frames or "
-                   "render --live HOST:PORT");
+    return exit_no_device;  // require_display has said so
 #endif
 }
 
 int run_view(Options options) {
     check_options(options);
-    const ShownPanel panel = panel_from_name(options.panel);
+    const ShownPanel panel = shown_panel_from_name(options.panel);
+    if (!options.headless) {
+        require_display();
+    }
     LoadedScene scene = load_scene(options.arguments.request, 1);
     report_warnings(scene.scene->warnings);
     if (!options.headless) {
@@ -163,6 +160,8 @@ void add_view(CLI::App& app, Run& run) {
     with_headless(command->add_flag("--json", options->json, "Results of --headless as JSON on stdout"));
     options->window_options.push_back(
         command->add_option("--log", options->log, "One line of JSON an event to this file; - is stdout"));
+    options->window_options.push_back(
+        command->add_option("--shots", options->folder, "Folder of the pictures that are saved")->check(CLI::ExistingDirectory));
     options->window_options.push_back(
         command->add_option("--interface-scale", options->interface_scale, "Of text and buttons; the display's own by default")
             ->check(number_between(0.5, 4)));

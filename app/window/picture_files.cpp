@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "image/layered_image.h"
-
 namespace diptych::app {
 
 std::filesystem::path next_picture(const std::filesystem::path& folder, const std::string& scene, const std::string& extension) {
@@ -15,13 +13,6 @@ std::filesystem::path next_picture(const std::filesystem::path& folder, const st
             return base.string() + extension;
         }
     }
-}
-
-void save_exr(const std::filesystem::path& path, KeptFilm kept) {
-    LayeredImage layers = develop(kept.film);
-    kept.request.output = path.string();
-    layers.metadata = render_metadata(kept.request, kept.outcome);
-    write_exr(path, layers);
 }
 
 }  // namespace diptych::app

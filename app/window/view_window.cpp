@@ -12,12 +12,14 @@
 #include <filesystem>
 #include <thread>
 
-#include "backend.h"
+#include "backend/cpu_renderer.h"
 #include "command.h"
 #include "error.h"
 #include "image/image_file.h"
+#include "render_picture.h"
 #include "validation.h"
 #include "view/frame_loop.h"
+#include "view/invalidation.h"
 #include "vulkan_renderer.h"
 #include "window/camera_hand.h"
 #include "window/picture_files.h"
@@ -62,9 +64,8 @@ RendererFactory vulkan_factory(std::shared_ptr<Gpu> gpu) {
     return [gpu = std::move(gpu)](const PackedScene& packed) { return make_vulkan_renderer(gpu, packed); };
 }
 
-RendererFactory cpu_factory(const Scene* scene, RenderRequest request) {
-    request.backend = "cpu";
-    return [scene, request](const PackedScene& packed) { return make_renderer(*scene, packed, request); };
+RendererFactory cpu_factory(int threads) {
+    return [threads](const PackedScene& packed) { return make_cpu_renderer(packed, threads); };
 }
 
 class ViewWindow {
@@ -134,13 +135,7 @@ ViewWindow::ViewWindow(const WindowOptions& options, LoadedScene scene)
 }
 
 void ViewWindow::begin_loop(LoadedScene scene) {
-    FrameLoopOptions options;
-    if (options_.has_cpu) {
-        options.cpu = cpu_factory(scene.scene.get(), request_);
-    }
-    if (options_.has_vulkan) {
-        options.vulkan = vulkan_factory(gpu_);
-    }
+    const FrameLoopOptions options{cpu_factory(request_.threads), vulkan_factory(gpu_)};
     scene.request.settings.width = std::max(1, static_cast<int>(std::lround(input_.width * options_.scale)));
     scene.request.settings.height = std::max(1, static_cast<int>(std::lround(input_.height * options_.scale)));
     loop_ = std::make_unique<FrameLoop>(options, std::move(scene));
@@ -324,7 +319,9 @@ void ViewWindow::take_saved() {
         return;
     }
     try {
-        save_exr(kept_path_, kept_.get());
+        KeptFilm kept = kept_.get();
+        kept.request.output = kept_path_.string();
+        save_film(kept.film, kept.request, kept.outcome);
         say("saved " + kept_path_.string());
         log_.write("saved", {{"file", kept_path_.string()}});
     } catch (const Error& error) {

@@ -10,8 +10,6 @@ namespace diptych::app {
 
 struct WindowOptions {
     ShownPanel panel = ShownPanel::split;
-    bool has_cpu = true;  // panels that there are
-    bool has_vulkan = true;
     int width = 1280;  // of the window
     int height = 720;
     double scale = 1;            // film pixels over pixels of the window

@@ -21,10 +21,11 @@ std::string glfw_reason() {
     return text == nullptr ? "no reason given" : text;
 }
 
-/// GLFW, up while anyone holds one of these.
 void start_glfw() {
     if (glfwInit() != GLFW_TRUE) {
-        throw NoDevice("no window: " + glfw_reason());
+        throw NoDevice(fmt::format("view: no window could be opened ({}); without a display use `diptych view --headless`, "
+                                   "`diptych render --frames N` or, to watch from afar, `diptych render --live HOST:PORT`",
+                                   glfw_reason()));
     }
 }
 
@@ -164,13 +165,9 @@ std::vector<std::string> surface_extensions() {
     return {names, names + count};
 }
 
-bool has_display(std::string& reason) {
-    if (glfwInit() != GLFW_TRUE) {
-        reason = glfw_reason();
-        return false;
-    }
+void check_display() {
+    start_glfw();
     glfwTerminate();
-    return true;
 }
 
 void wake_window() {

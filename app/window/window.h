@@ -78,8 +78,8 @@ private:
 /// display or the Vulkan loader cannot show anything.
 std::vector<std::string> surface_extensions();
 
-/// Whether a window could be opened here; the reason where not.
-bool has_display(std::string& reason);
+/// Throws NoDevice, saying what to do instead, where no window could be opened.
+void check_display();
 
 /// Wakes a poll from any thread.
 void wake_window();
