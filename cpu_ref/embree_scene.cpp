@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <limits>
+#include <utility>
 
 #include "error.h"
 #include "leaves.h"
@@ -177,6 +178,7 @@ EmbreeScene::Root EmbreeScene::build_root(const PackedScene& packed) const {
         rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(root.scene.get());
+    root.revision = packed.revisions.instances;
     return root;
 }
 
@@ -188,6 +190,10 @@ void EmbreeScene::require_instances(const PackedScene& packed) const {
 }
 
 void EmbreeScene::place_all(const PackedScene& packed, Root& root) {
+    const std::uint64_t revision = std::exchange(root.revision, packed.revisions.instances);
+    if (revision != 0 && revision == root.revision) {
+        return;
+    }
     bool moved = false;
     for (std::size_t i = 0; i < packed.instances.size(); ++i) {
         const Placement next = placement(packed, i);

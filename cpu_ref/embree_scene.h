@@ -75,6 +75,7 @@ private:
     struct Root {
         ScenePtr scene;
         std::vector<Placement> placements;
+        std::uint64_t revision = 0;  // of the instances
     };
 
     static Placement placement(const PackedScene& packed, std::size_t instance);

@@ -49,9 +49,11 @@ Invalidation invalidation(const RenderedState& before, const RenderedState& afte
         lights_of(before.request) != lights_of(after.request)) {
         return Invalidation::settings;
     }
-    if (tie_pose(before.camera) != tie_pose(after.camera) || before.time != after.time ||
-        tie_light(before.request) != tie_light(after.request)) {
+    if (before.time != after.time || tie_light(before.request) != tie_light(after.request)) {
         return Invalidation::moment;
+    }
+    if (tie_pose(before.camera) != tie_pose(after.camera)) {
+        return Invalidation::view;
     }
     return before.request.settings.seed != after.request.settings.seed ? Invalidation::picture : Invalidation::nothing;
 }

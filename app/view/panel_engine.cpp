@@ -27,12 +27,20 @@ double blended(double known, double measured) {
 
 }  // namespace
 
+namespace {
+
+void set_camera(const RenderedState& state, Scene& scene) {
+    scene.cameras.at(static_cast<std::size_t>(state.request.settings.camera)) = state.camera;
+}
+
+}  // namespace
+
 void put_scene(const Scene& loaded, const RenderedState& state, Scene& scene) {
     if (moves(loaded)) {
         pose_scene(scene, state.time);
     }
     place_lights(loaded, state.request, scene);
-    scene.cameras.at(static_cast<std::size_t>(state.request.settings.camera)) = state.camera;
+    set_camera(state, scene);
 }
 
 RenderSettings panel_settings(const RenderSettings& settings, std::uint32_t seed_offset, int divisor) {
@@ -113,8 +121,13 @@ void PanelEngine::apply(const ViewJob& job) {
             renderer_->restart(settings().seed);
             begin_picture(false);
             break;
+        case Invalidation::view:
+            set_camera(job_->state, scene_);
+            show(false);
+            break;
         case Invalidation::moment:
-            change_moment();
+            put_scene(*job_->scene, job_->state, scene_);
+            show(true);
             break;
         case Invalidation::settings:
             change_settings();
@@ -125,7 +138,7 @@ void PanelEngine::apply(const ViewJob& job) {
         }
         applied_ = job.state;
         spoiled_ = false;
-        if (level == Invalidation::moment) {
+        if (level == Invalidation::view || level == Invalidation::moment) {
             speed_.overhead_seconds = blended(speed_.overhead_seconds, between(begin, Clock::now()));
         }
         aim_dispatches(*renderer_, job.frame_seconds / 2);
@@ -143,7 +156,7 @@ void PanelEngine::apply(const ViewJob& job) {
 void PanelEngine::pack_anew(Scene& scene) {
     const Scene& loaded = *job_->scene;
     place_lights(loaded, job_->state.request, scene);
-    scene.cameras.at(static_cast<std::size_t>(job_->state.request.settings.camera)) = job_->state.camera;
+    set_camera(job_->state, scene);
     auto packed = std::make_unique<PackedScene>(pack_scene(scene, settings()));
     if (renderer_) {
         // Settings change neither, and a renderer may refer to those that it was made from.
@@ -189,14 +202,14 @@ void PanelEngine::change_settings() {
     begin_picture(false);
 }
 
-void PanelEngine::show_moment() {
-    pack_moment(scene_, settings(), *packed_);
+/// Moves the renderer to the scene's moment, and begins a picture of it.
+void PanelEngine::show(bool whole_moment) {
+    if (whole_moment) {
+        pack_moment(scene_, settings(), *packed_);
+    } else {
+        pack_view(scene_, settings(), *packed_);
+    }
     renderer_->move_to(*packed_);
-}
-
-void PanelEngine::change_moment() {
-    put_scene(*job_->scene, job_->state, scene_);
-    show_moment();
     const bool chained = settings().moves;
     if (chained) {
         renderer_->clear_film();
@@ -232,9 +245,9 @@ void PanelEngine::advance(const std::atomic<bool>& cancel) {
         }
         samples_ += count;
         learn(count, between(begin, Clock::now()));
-        if (unsettled_) {
-            show_moment();
-            unsettled_ = false;
+        if (std::exchange(unsettled_, false)) {
+            pack_view(scene_, settings(), *packed_);  // nothing has moved since
+            renderer_->move_to(*packed_);
         }
         publish(first);
     });

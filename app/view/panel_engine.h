@@ -63,9 +63,8 @@ private:
     void guarded(const Work& work);
     void open_scene();
     void change_settings();
-    void change_moment();
     void pack_anew(Scene& scene);
-    void show_moment();
+    void show(bool whole_moment);
     void begin_picture(bool keeps_chain);
     void learn(std::uint32_t samples, double seconds);
     void publish(bool first);

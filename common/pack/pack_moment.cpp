@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 
 #include "error.h"
@@ -57,6 +58,14 @@ bool uses(const PackedScene& packed, std::size_t instance, const std::vector<boo
     return false;
 }
 
+bool any(const std::vector<bool>& flags) {
+    return std::find(flags.begin(), flags.end(), true) != flags.end();
+}
+
+void rename_if(bool changed, std::uint64_t& revision) {
+    revision = changed ? new_revision() : revision;
+}
+
 bool same_lights(const std::vector<shared::PunctualLight>& a, const std::vector<shared::PunctualLight>& b) {
     return a.size() == b.size() &&
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(shared::PunctualLight)) == 0);
@@ -72,8 +81,11 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     }
     require_same_tint(scene, packed);
     keep_previous(packed);
+    Revisions& revisions = packed.revisions;
     const std::vector<bool> materials = move_materials(scene, packed);
+    rename_if(any(materials), revisions.materials);
     const std::vector<bool> instances = move_instances(scene, packed);
+    rename_if(any(instances), revisions.instances);
     bool weigh = false;
     for (std::size_t i = 0; i < instances.size(); ++i) {
         if (packed.instances[i].first_emitter_slot == shared::NONE) {
@@ -92,10 +104,19 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     }
     const double environment_luminance = packed.environment_luminance;
     place_environment(scene, packed);
-    weigh = weigh || environment_luminance != packed.environment_luminance;
-    if (weigh || !same_lights(before, packed.punctual_lights)) {
+    weigh = weigh || environment_luminance != packed.environment_luminance ||
+            !same_lights(before, packed.punctual_lights);
+    if (weigh) {
         weigh_lights(packed);
     }
+    rename_if(weigh, revisions.emissive_triangles);
+    rename_if(weigh, revisions.punctual_lights);
+    rename_if(weigh, revisions.light_table);
+    pack_camera(scene, settings, packed);
+}
+
+void pack_view(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
+    keep_previous(packed);
     pack_camera(scene, settings, packed);
 }
 

@@ -44,6 +44,9 @@ void weigh_lights(PackedScene& packed);
 /// What moves becomes the moment before, where reuse will look back to it; until then that is this one.
 void keep_previous(PackedScene& packed);
 
+/// A revision that no array has.
+std::uint64_t new_revision();
+
 /// Throws Error unless `size` elements of a buffer can be named by 32-bit indices.
 void require_indexable(const Scene& scene, std::size_t size, const char* what);
 

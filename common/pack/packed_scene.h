@@ -34,7 +34,15 @@ struct SceneBuffers {
 };
 }  // namespace shared
 
+/// A name for the contents of each array: those of one name are equal, whatever copy they are in. 0 names nothing.
+struct Revisions {
+#define DECLARE_REVISION(Type, name) std::uint64_t name = 0;
+    SCENE_BUFFERS(DECLARE_REVISION)
+#undef DECLARE_REVISION
+};
+
 struct PackedScene : shared::SceneBuffers {
+    Revisions revisions;  // for renderers to skip what they have; who writes an array by hand sets its revision to 0
     std::vector<MeshRange> meshes;
     std::vector<GeometryExtent> geometry_extents;  // parallel to geometries
     std::vector<std::uint32_t> instance_meshes;    // parallel to instances: index into meshes
@@ -75,6 +83,9 @@ PackedScene pack_scene(const Scene& scene, const RenderSettings& settings);
 /// that a moment depends on no other. Keeps constants.seed. Throws Error where the scene is another one, an environment that was dark or
 /// of another tint included.
 void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+
+/// A moment in which nothing but the camera is another: pack_moment without a look at the rest.
+void pack_view(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 /// Goes on with other settings where no array's size or order depends on them: size, depth, sampler, weights, seed, most integrators. The
 /// scene may stand at another moment, which becomes the moment before as well. As pack_scene of it would have it, but for

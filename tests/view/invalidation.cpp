@@ -31,24 +31,29 @@ TEST_CASE("A seed invalidates the picture", "[view]") {
     CHECK(after([](RenderedState& s) { s.request.settings.seed = 9; }) == Invalidation::picture);
 }
 
+TEST_CASE("The camera invalidates the view", "[view]") {
+    RenderedState before;
+    before.camera.lens_radius = 0.1;
+    CHECK(after([](RenderedState& s) { s.camera.camera_to_world[3].x += 1; }, before) == Invalidation::view);
+    CHECK(after([](RenderedState& s) { s.camera.vertical_fov = 1; }, before) == Invalidation::view);
+    CHECK(after([](RenderedState& s) { s.camera.orthographic_height = 7; }, before) == Invalidation::view);
+    CHECK(after([](RenderedState& s) { s.camera.lens_radius = 0.2; }, before) == Invalidation::view);
+    CHECK(after([](RenderedState& s) { s.camera.focus_distance = 9; }, before) == Invalidation::view);
+}
+
 TEST_CASE("What moves invalidates the moment", "[view]") {
     RenderedState before;
     before.request.sun = Sun{};
-    before.camera.lens_radius = 0.1;
-    CHECK(after([](RenderedState& s) { s.camera.camera_to_world[3].x += 1; }, before) == Invalidation::moment);
-    CHECK(after([](RenderedState& s) { s.camera.vertical_fov = 1; }, before) == Invalidation::moment);
-    CHECK(after([](RenderedState& s) { s.camera.orthographic_height = 7; }, before) == Invalidation::moment);
-    CHECK(after([](RenderedState& s) { s.camera.lens_radius = 0.2; }, before) == Invalidation::moment);
-    CHECK(after([](RenderedState& s) { s.camera.focus_distance = 9; }, before) == Invalidation::moment);
     CHECK(after([](RenderedState& s) { s.time = 1; }, before) == Invalidation::moment);
     CHECK(after([](RenderedState& s) { s.request.sun->azimuth = 9; }, before) == Invalidation::moment);
     CHECK(after([](RenderedState& s) { s.request.environment_rotation = 9; }, before) == Invalidation::moment);
     CHECK(after([](RenderedState& s) { s.request.environment_scale = 9; }, before) == Invalidation::moment);
-    const auto both = [](RenderedState& s) {
+    const auto all = [](RenderedState& s) {
         s.request.settings.seed = 9;
+        s.camera.vertical_fov = 1;
         s.time = 1;
     };
-    CHECK(after(both, before) == Invalidation::moment);
+    CHECK(after(all, before) == Invalidation::moment);
 }
 
 TEST_CASE("What is packed or compiled otherwise invalidates the settings", "[view]") {
