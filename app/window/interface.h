@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,6 +65,7 @@ struct InterfaceState {
     bool replay = false;
     std::vector<Message> messages;
     Wishes wishes;
+    std::map<std::string, ImVec2> places;  // where the middles of named controls are, for the log
     bool dividing = false;  // the split's line is being dragged
 };
 

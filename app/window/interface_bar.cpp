@@ -1,6 +1,8 @@
 // The bar along the top: which panel, which layer, by which integrator.
 #include <algorithm>
 #include <array>
+#include <map>
+#include <string>
 
 #include "window/interface_layout.h"
 #include "window/widgets.h"
@@ -14,15 +16,37 @@ constexpr std::array layer_names = {"Radiance", "Albedo", "Normal", "Depth", "St
                                     "Non-finite"};
 constexpr std::array integrator_names = {"brdf", "direct", "path", "ris", "restir"};
 
-template <typename Enum, std::size_t Count>
-void drop_down(const char* id, const std::array<const char*, Count>& names, Enum& chosen, float width) {
-    int index = static_cast<int>(chosen);
-    ImGui::SetNextItemWidth(width);
-    ImGui::Combo(id, &index, names.data(), static_cast<int>(Count), static_cast<int>(Count));
-    chosen = static_cast<Enum>(index);
+using Places = std::map<std::string, ImVec2>;
+
+/// Notes where the last item is.
+void mark(Places& places, const std::string& name) {
+    const ImVec2 least = ImGui::GetItemRectMin();
+    const ImVec2 most = ImGui::GetItemRectMax();
+    places[name] = {(least.x + most.x) / 2, (least.y + most.y) / 2};
 }
 
-void choose_panel(const Theme& theme, const InterfaceFacts& facts, ShownState& shown, bool narrow) {
+template <typename Enum, std::size_t Count>
+void drop_down(const char* name, const std::array<const char*, Count>& names, Enum& chosen, float width, const char* help, Places& places) {
+    const auto index = static_cast<std::size_t>(chosen);
+    ImGui::SetNextItemWidth(width);
+    ImGui::PushID(name);
+    const bool open = ImGui::BeginCombo("##choice", names[index], ImGuiComboFlags_HeightLargest);
+    if (!open) {
+        mark(places, name);
+        explain(help);
+    } else {
+        for (std::size_t i = 0; i < Count; ++i) {
+            if (ImGui::Selectable(names[i], i == index)) {
+                chosen = static_cast<Enum>(i);
+            }
+            mark(places, std::string(name) + ":" + names[i]);
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::PopID();
+}
+
+void choose_panel(const Theme& theme, const InterfaceFacts& facts, ShownState& shown, bool narrow, Places& places) {
     const bool both = facts.panels[0].shot != nullptr && facts.panels[1].shot != nullptr;
     if (!both) {
         const char* name = facts.panels[facts.panels[0].shot != nullptr ? 0 : 1].title;
@@ -32,14 +56,16 @@ void choose_panel(const Theme& theme, const InterfaceFacts& facts, ShownState& s
         ImGui::PopFont();
         return;
     }
+    constexpr const char* help = "Which panel is seen  (P)";
     if (narrow) {
-        drop_down("##panel", panel_names, shown.panel, theme.units(24));
+        drop_down("panel", panel_names, shown.panel, theme.units(24), help, places);
     } else {
         int index = static_cast<int>(shown.panel);
-        segments(theme, "panel", panel_names, index, theme.units(80));
+        segments("panel", panel_names, index, theme.units(80));
         shown.panel = static_cast<ShownPanel>(index);
+        mark(places, "panel");
+        explain(help);
     }
-    explain("Which panel is seen  (P)");
 }
 
 /// Buttons from the right end leftward, each shown while there is room for it.
@@ -76,13 +102,12 @@ void draw_top_bar(const Theme& theme, const InterfaceFacts& facts, ViewState& st
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.units(2.5F), theme.units(2.5F)});
     begin_panel("bar", box);
     const bool narrow = box.size.x < theme.units(210);
-    choose_panel(theme, facts, state.shown, narrow);
+    choose_panel(theme, facts, state.shown, narrow, interface.places);
     ImGui::SameLine();
-    drop_down("##layer", layer_names, state.shown.layer, theme.units(34));
-    explain("Which layer of the picture  (L)");
+    drop_down("layer", layer_names, state.shown.layer, theme.units(34), "Which layer of the picture  (L)", interface.places);
     ImGui::SameLine();
-    drop_down("##integrator", integrator_names, state.rendered.request.settings.integrator, theme.units(22));
-    explain("How light is found  (I)");
+    drop_down("integrator", integrator_names, state.rendered.request.settings.integrator, theme.units(22), "How light is found  (I)",
+              interface.places);
     ImGui::SameLine(0, 0);
     ButtonsFromRight button(ImGui::GetCursorPosX());
     if (button("Keys", "Keys and mouse  (H)")) {

@@ -29,13 +29,13 @@ void PixelReplay::ask(const FrameLoop& loop, const shared::PathQuery& query) {
     }
 }
 
-void PixelReplay::update() {
+bool PixelReplay::update() {
     if (answers_.empty()) {
-        return;
+        return false;
     }
     for (const Answer& answer : answers_) {
         if (answer.path.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-            return;
+            return false;
         }
     }
     Replay replay;
@@ -54,6 +54,7 @@ void PixelReplay::update() {
     }
     answers_.clear();
     result_ = std::move(replay);
+    return true;
 }
 
 }  // namespace diptych::app

@@ -17,8 +17,8 @@ public:
     void ask(const FrameLoop& loop, const shared::PathQuery& query);
     void forget();
 
-    /// Once a frame: takes what the panels have answered.
-    void update();
+    /// Once a frame: takes what the panels have answered; true when all have.
+    bool update();
 
     bool asked() const { return asked_; }
     bool waiting() const { return !answers_.empty(); }

@@ -38,7 +38,7 @@ void ViewLog::write(const char* event, nlohmann::ordered_json details) {
     std::fflush(file_.get());
 }
 
-void ViewLog::follow(const InterfaceFacts& facts, const ViewState& state, double now) {
+void ViewLog::follow(const InterfaceFacts& facts, const ViewState& state, const InterfaceState& interface, double now) {
     if (file_ == nullptr) {
         return;
     }
@@ -58,6 +58,13 @@ void ViewLog::follow(const InterfaceFacts& facts, const ViewState& state, double
         width_ = settings.width;
         height_ = settings.height;
         write("resized", {{"width", width_}, {"height", height_}});
+    }
+    for (const auto& [name, at] : interface.places) {
+        ImVec2& known = placed_[name];
+        if (known.x != at.x || known.y != at.y) {
+            known = at;
+            write("placed", {{"name", name}, {"x", at.x}, {"y", at.y}});
+        }
     }
     for (std::size_t i = 0; i < facts.panels.size(); ++i) {
         if (facts.panels[i].shot == nullptr) {

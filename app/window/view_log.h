@@ -21,8 +21,8 @@ public:
     void write(const char* event, nlohmann::ordered_json details = nlohmann::ordered_json::object());
 
     /// Once a frame: what has changed since the last. Events: integrator, panel, layer, resized, applied (a version seen on a panel), spp (at
-    /// 1, 2, 4, … of a picture at rest).
-    void follow(const InterfaceFacts& facts, const ViewState& state, double now);
+    /// 1, 2, 4, … of a picture), placed (a named control that stands somewhere else).
+    void follow(const InterfaceFacts& facts, const ViewState& state, const InterfaceState& interface, double now);
 
 private:
     struct Closer {
@@ -43,6 +43,7 @@ private:
     int width_ = 0;
     int height_ = 0;
     std::array<Seen, 2> seen_;
+    std::map<std::string, ImVec2> placed_;
 };
 
 }  // namespace diptych::app

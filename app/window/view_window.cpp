@@ -435,7 +435,9 @@ void ViewWindow::run() {
         if (input_.closed) {
             break;
         }
-        replay_.update();
+        if (replay_.update()) {
+            log_.write("replayed", {{"paths", replay_.result().paths.size()}, {"parted", replay_.result().parting.has_value()}, {"error", replay_.error()}});
+        }
         take_saved();
         fit_film();
         if (input_.width > 0) {
@@ -466,7 +468,7 @@ void ViewWindow::run() {
         } catch (const DeviceLost&) {
             recover();
         }
-        log_.follow(facts(), state(), now);
+        log_.follow(facts(), state(), interface_, now);
     }
     log_.write("quit");
 }

@@ -104,7 +104,7 @@ bool toggle(const Theme& theme, const char* label, bool& value, const char* help
     return changed;
 }
 
-bool segments(const Theme& theme, const char* id, std::span<const char* const> names, int& chosen, float width) {
+bool segments(const char* id, std::span<const char* const> names, int& chosen, float width) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
     const float part = std::floor(width / static_cast<float>(names.size()));
@@ -131,7 +131,6 @@ bool segments(const Theme& theme, const char* id, std::span<const char* const> n
     ImGui::PopID();
     ImGui::SetCursorScreenPos(at);
     ImGui::Dummy({part * static_cast<float>(names.size()), height});
-    static_cast<void>(theme);
     return chosen != before;
 }
 

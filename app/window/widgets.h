@@ -38,7 +38,7 @@ bool slider(const Theme& theme, const char* label, std::uint32_t& value, std::ui
 bool toggle(const Theme& theme, const char* label, bool& value, const char* help = nullptr);
 
 /// Buttons in one, of which one is down; true where `chosen` has changed. `width` is that of all.
-bool segments(const Theme& theme, const char* id, std::span<const char* const> names, int& chosen, float width);
+bool segments(const char* id, std::span<const char* const> names, int& chosen, float width);
 
 /// A button with text in the colour of notes, as wide as the text.
 bool quiet_button(const char* text);

@@ -1,0 +1,127 @@
+// The whole program in a window, driven by synthetic input, under the validation layer.
+#include "../app/process.h"
+#include "catch.h"
+#include "driven_view.h"
+#include "image/image_file.h"
+#include "image/layered_image.h"
+
+using namespace diptych;
+using namespace diptych::tests;
+
+namespace {
+
+bool is_settled(const Event& event) {
+    return event["divisor"] == 1 && event["spp"] >= 2;
+}
+
+/// The validation layer, or a device, may be missing where Xvfb is not.
+bool can_open(const VirtualDisplay& display, const TemporaryFolder& folder, const std::string& scene, std::string& reason) {
+    const ProcessResult result = run_diptych(folder, {"render", scene, "-o", folder.file("probe.exr"), "--spp", "1", "--size", "4", "--backend",
+                                                      "vulkan", "--validation"});
+    reason = display.name().empty() ? "Xvfb does not start" : result.err;
+    return !display.name().empty() && result.exit_code == 0;
+}
+
+void check_clean(const ProcessResult& result) {
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(result.err.find("validation:") == std::string::npos);
+}
+
+#define OPEN_DISPLAY(display, folder, scene)                                    \
+    if (!has_virtual_display()) {                                               \
+        SKIP_TEST("Xvfb or xdotool is not installed");                          \
+    }                                                                           \
+    const VirtualDisplay display(640, 400);                                     \
+    const TemporaryFolder folder;                                               \
+    const std::string scene = generate_scene(folder, "cornell");                \
+    if (std::string reason; !can_open(display, folder, scene, reason)) {        \
+        SKIP_TEST("no window with a validated Vulkan device here: " + reason);  \
+    }
+
+}  // namespace
+
+TEST_CASE("a view is opened, orbited, switched, resized, saved and closed", "[view_window]") {
+    OPEN_DISPLAY(display, folder, scene)
+    DrivenView view(display, folder, scene, {"--panel", "vulkan", "--scale", "0.2", "--max-depth", "2"});
+    CHECK(view.await("integrator")["name"] == "path");
+    const Event begun = view.await("spp", is_settled);
+    CHECK(begun["width"] == 128);
+    CHECK(begun["height"] == 80);
+
+    view.drag(1, 320, 250, 60, 20);
+    const auto is_newer = [&](const Event& event) { return event["version"] > begun["version"]; };
+    view.await("applied", is_newer);
+    const Event orbited = view.await("spp", [&](const Event& event) { return is_newer(event) && is_settled(event); });
+
+    view.key("i");
+    CHECK(view.await("integrator")["name"] == "ris");
+    view.await("spp", [](const Event& event) { return event["integrator"] == "ris" && event["spp"] >= 2; });
+    view.click(view.latest("placed", [](const Event& event) { return event["name"] == "integrator"; }));
+    view.click(view.await("placed", [](const Event& event) { return event["name"] == "integrator:restir"; }));
+    CHECK(view.await("integrator")["name"] == "restir");
+    view.await("spp", [](const Event& event) { return event["integrator"] == "restir" && event["spp"] >= 2; });
+    view.key("shift+i");
+    view.key("shift+i");
+    view.await("spp", [](const Event& event) { return event["integrator"] == "path" && is_settled(event); });
+
+    display.hand({"windowsize", "--sync", std::to_string(view.window()), "500", "360"});
+    const Event resized = view.await("resized");
+    CHECK(resized["width"] == 100);
+    CHECK(resized["height"] == 72);
+    view.await("spp", [](const Event& event) { return event["width"] == 100 && is_settled(event); });
+
+    view.key("ctrl+s");
+    const RawImage picture = read_raw(view.await("screenshot")["file"].get<std::string>());
+    CHECK(picture.image.width == 500);
+    CHECK(picture.image.height == 360);
+    double sum = 0;
+    for (const float value : picture.image.data) {
+        sum += static_cast<double>(value);
+    }
+    CHECK(sum / static_cast<double>(picture.image.data.size()) > 0.02);  // not black
+
+    view.key("ctrl+shift+s");
+    const std::string exr = view.await("saved")["file"].get<std::string>();
+    const LayeredImage saved = read_image(exr);
+    CHECK(saved.color.width == 100);
+    CHECK(saved.depth);
+    CHECK(saved.metadata.at("command").find("--eye") != std::string::npos);  // the camera was orbited
+    CHECK(orbited["version"] > begun["version"]);
+    check_clean(view.quit());
+}
+
+TEST_CASE("files dropped on a view open, and a broken one leaves the scene up", "[view_window]") {
+    OPEN_DISPLAY(display, folder, scene)
+    const std::string other = generate_scene(folder, "furnace");
+    const std::string broken = folder.file("broken.gltf");
+    write_text(broken, "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": 7");
+    DrivenView view(display, folder, scene, {"--panel", "split", "--scale", "0.1", "--max-depth", "2"});
+    view.await("spp", [](const Event& event) { return event["panel"] == "cpu" && is_settled(event); });
+    view.await("spp", [](const Event& event) { return event["panel"] == "vulkan" && is_settled(event); });
+
+    REQUIRE(drop_files(display.name(), view.window(), {broken}));
+    const std::string error = view.await("error")["text"].get<std::string>();
+    CHECK(error.find("broken.gltf") != std::string::npos);
+    view.key("p");
+    CHECK(view.await("panel")["name"] == "difference");
+    CHECK(view.latest("applied")["scene"] == 1);
+
+    REQUIRE(drop_files(display.name(), view.window(), {other}));
+    CHECK(view.await("dropped")["file"] == other);
+    view.await("spp", [](const Event& event) { return event["scene"] > 1 && event["panel"] == "vulkan" && is_settled(event); });
+
+    // A click replays a pixel's path on both panels.
+    display.hand({"mousemove", "--sync", "320", "300", "sleep", "0.2", "mousedown", "1", "sleep", "0.2", "mouseup", "1"});
+    const Event replayed = view.await("replayed");
+    CHECK(replayed["paths"] == 2);
+    CHECK(replayed["parted"] == false);
+    check_clean(view.quit());
+}
+
+TEST_CASE("without a display a view says what to do instead", "[view_window]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const ProcessResult result = run_diptych(folder, {"view", scene}, {"DISPLAY=", "WAYLAND_DISPLAY="});
+    check_refusal(result, 3, {"--headless", "render --frames", "render --live"});
+}
