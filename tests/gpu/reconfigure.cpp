@@ -172,6 +172,23 @@ TEST_CASE("A renderer that was reconfigured replays its own paths and names its 
     check_no_validation_messages();
 }
 
+TEST_CASE("A film that finds no room leaves a renderer that says so, and takes other settings, on the device") {
+    NEED_VULKAN();
+    const Scene scene = generate_scene("cornell").scene;
+    RenderSettings settings = small_settings();
+    PathRenderer renderer(open_test_gpu(), pack_scene(scene, settings));
+    const Film before = shoot(renderer);
+    settings.width = settings.height = 1 << 20;
+    for (int round = 0; round < 2; ++round) {
+        CHECK_THROWS_WITH(renderer.reconfigure(pack_scene(scene, settings)), Catch::Contains("more than it has"));
+        CHECK_THROWS_WITH(shoot(renderer), Catch::Contains("could not be taken over"));
+        CHECK(renderer.device_film().film->width == 24);
+    }
+    renderer.reconfigure(pack_scene(scene, small_settings()));
+    CHECK(same_film(shoot(renderer), before));
+    check_no_validation_messages();
+}
+
 TEST_CASE("A renderer refuses another scene's settings, and keeps its own, on the device") {
     NEED_VULKAN();
     const RenderSettings settings = small_settings();
