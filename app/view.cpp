@@ -15,6 +15,7 @@
 #include "view/shown_names.h"
 #if DIPTYCH_VIEW
 #include "window/view_window.h"
+#include "window/window.h"
 #endif
 
 namespace diptych::app {

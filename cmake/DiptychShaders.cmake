@@ -16,7 +16,7 @@ function(diptych_shaders name)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${name})
   file(MAKE_DIRECTORY ${output})
   file(GLOB shaders CONFIGURE_DEPENDS ${folder}/*.rgen ${folder}/*.rchit ${folder}/*.rahit ${folder}/*.rmiss
-       ${folder}/*.comp)
+       ${folder}/*.comp ${folder}/*.vert ${folder}/*.frag)
   set(binaries "")
   set(embeddings "")
   set(entries "")

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <vector>
-
-#include "render/film_statistics.h"
 
 namespace diptych::app {
 
@@ -27,27 +23,6 @@ DisplayLayer layer_of(ShownLayer layer) {
     return DisplayLayer::radiance;
 }
 
-double luminance_of(const Rgb& color) {
-    return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
-}
-
-/// The value that 98 of 100 of some thousand pixels do not pass; 0 where none is known.
-double high_percentile(std::size_t pixels, const std::function<double(std::size_t)>& value) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < pixels; i += std::max<std::size_t>(pixels / 4096, 1)) {
-        const double v = value(i);
-        if (std::isfinite(v) && v > 0) {
-            values.push_back(v);
-        }
-    }
-    if (values.empty()) {
-        return 0;
-    }
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 98 / 100);
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
-
 /// Two digits of 1, 2, 5, so that the legend is round and stands still while samples come.
 double rounded_up(double value) {
     if (!(value > 0)) {
@@ -62,58 +37,29 @@ double rounded_up(double value) {
     return 10 * decade;
 }
 
-double found_high(ShownLayer layer, const Film& film) {
-    const std::size_t pixels = film.pixels.size();
-    switch (layer) {
-        case ShownLayer::depth:
-            return film.first_hits.empty() ? 0
-                                           : high_percentile(pixels, [&](std::size_t i) { return static_cast<double>(film.first_hits[i].depth); });
-        case ShownLayer::standard_error:
-            return film.moments.empty() ? 0 : high_percentile(pixels, [&](std::size_t i) {
-                return luminance_of(pixel_standard_error(film.pixels[i], film.moments[i]));
-            });
-        case ShownLayer::samples:
-            return high_percentile(pixels, [&](std::size_t i) { return static_cast<double>(film.pixels[i].samples); });
-        default:
-            return 0;
-    }
-}
-
-double found_difference(const Film& film) {
-    return high_percentile(film.pixels.size(), [&](std::size_t i) { return luminance_of(pixel_mean(film.pixels[i])); }) / 4;
-}
-
-void choose_ramp(const ShownState& shown, const PanelShot* shot, Legend& legend) {
-    const Film* film = shot != nullptr ? shot->film.get() : nullptr;
+/// From 0 to a round number that the numbers seen last stay below, however they are to be shown.
+void choose_ramp(const ShownState& shown, const std::optional<DisplayRange>& seen, Legend& legend) {
     const bool difference = shown.panel == ShownPanel::difference;
     legend.shown = difference || is_scalar(layer_of(shown.layer));
     legend.difference = difference;
+    legend.logarithmic = !difference && shown.layer == ShownLayer::reservoir_weight;
     legend.unit = shown.layer == ShownLayer::depth ? "m" : "";
-    if (shown.layer_scale > 0) {
-        legend.high = shown.layer_scale;
-    } else if (difference && !is_scalar(layer_of(shown.layer))) {
-        legend.high = film != nullptr ? rounded_up(found_difference(*film)) : 1;
-    } else if (shown.layer == ShownLayer::reservoir_confidence) {
-        const ResamplingSettings none;
-        legend.high = 1 + static_cast<double>(shot != nullptr ? shot->state.request.settings.resampling.confidence_cap : none.confidence_cap);
-    } else if (shown.layer == ShownLayer::reservoir_weight) {
-        legend.low = 1e-3;
-        legend.high = 1e3;
-        legend.logarithmic = true;
-    } else {
-        legend.high = film != nullptr ? rounded_up(found_high(shown.layer, *film)) : 1;
+    legend.high = shown.layer_scale > 0 ? shown.layer_scale : seen ? rounded_up(static_cast<double>(seen->high)) : 1;
+    if (legend.logarithmic) {
+        const double low = seen ? static_cast<double>(seen->low) : 0;
+        legend.low = std::pow(10, std::floor(std::log10(std::max(low, legend.high * 1e-6))));
     }
 }
 
 }  // namespace
 
-DisplayRequest choose_display(const ShownState& shown, const PanelFilm& cpu, const PanelFilm& vulkan, std::uint32_t width, Legend& legend) {
+DisplayRequest choose_display(const ShownState& shown, const DeviceFilm& cpu, const DeviceFilm& vulkan, std::uint32_t width,
+                              const std::optional<DisplayRange>& seen, Legend& legend) {
     DisplayRequest request;
     const bool both = shown.panel == ShownPanel::split || shown.panel == ShownPanel::difference;
-    const PanelFilm& first = shown.panel == ShownPanel::vulkan ? vulkan : cpu;
-    request.left = first.device;
+    request.left = shown.panel == ShownPanel::vulkan ? vulkan : cpu;
     if (both) {
-        request.right = vulkan.device;
+        request.right = vulkan;
     }
     if (shown.panel == ShownPanel::split) {
         request.divider = static_cast<std::uint32_t>(std::lround(shown.divider * width));
@@ -123,7 +69,7 @@ DisplayRequest choose_display(const ShownState& shown, const PanelFilm& cpu, con
     request.tonemap = shown.tonemap;
     request.exposure_ev = static_cast<float>(shown.exposure);
     legend = {};
-    choose_ramp(shown, first.shot.get(), legend);
+    choose_ramp(shown, seen, legend);
     request.low = static_cast<float>(legend.low);
     request.high = static_cast<float>(legend.high);
     request.logarithmic = legend.logarithmic;

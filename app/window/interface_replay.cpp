@@ -87,7 +87,7 @@ void draw_replay(const Theme& theme, const PixelReplay& replay, InterfaceState& 
     ImGui::PopStyleColor();
     ImGui::SameLine();
     ImGui::SetNextItemWidth(theme.units(28));
-    int sample = static_cast<int>(replay.query().sample);
+    int sample = static_cast<int>(replay.query().sample_index);
     if (ImGui::InputInt("##sample", &sample) && sample >= 0) {
         interface.wishes.replay_sample = static_cast<std::uint32_t>(sample);
     }

@@ -25,8 +25,8 @@ public:
     /// been. Throws DeviceLost.
     bool draw(const DisplayRequest& request, vk::Extent2D size, const ImDrawData& interface);
 
-    /// The size of the picture that the request of `draw` is seen at: that of the window.
-    vk::Extent2D picture_size() const { return {picture_.width, picture_.height}; }
+    /// Where the numbers of a frame shown of late lay; none where none were shown.
+    const std::optional<DisplayRange>& range() const { return range_; }
 
     /// The picture of the last frame without the interface, as display values.
     Image picture() const;
@@ -47,6 +47,7 @@ private:
     std::unique_ptr<ImguiPass> interface_;
     std::array<FrameSlot, frames_in_flight> slots_;
     std::array<DisplayRequest, frames_in_flight> requests_;  // films that the frames in flight read
+    std::optional<DisplayRange> range_;
     std::size_t next_ = 0;
     bool stale_ = true;  // the swapchain is to be made anew
 };

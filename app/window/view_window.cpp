@@ -22,6 +22,7 @@
 #include "view/invalidation.h"
 #include "vulkan_renderer.h"
 #include "window/camera_hand.h"
+#include "window/display_choice.h"
 #include "window/picture_files.h"
 #include "window/presenter.h"
 #include "window/shortcuts.h"
@@ -91,7 +92,7 @@ private:
     void recover();
     void say(const std::string& text);
     void report(const std::string& text);
-    PanelFilm film_of(Panel panel);
+    DeviceFilm film_of(Panel panel);
     Panel main_panel() const;
     ViewState& state() { return loop_->state(); }
 
@@ -376,26 +377,28 @@ InterfaceFacts ViewWindow::facts() const {
     return facts;
 }
 
-PanelFilm ViewWindow::film_of(Panel panel) {
-    PanelFilm film{{}, loop_->shot(panel)};
-    if (film.shot == nullptr) {
-        return film;
+DeviceFilm ViewWindow::film_of(Panel panel) {
+    const std::shared_ptr<const PanelShot> shot = loop_->shot(panel);
+    if (shot == nullptr || !loop_->shows(panel)) {
+        return {};
     }
-    if (film.shot->device_film != nullptr) {
-        film.device = *film.shot->device_film;
-    } else if (film.shot->film != nullptr && loop_->shows(panel)) {
-        if (uploaded_ != film.shot->film) {
-            uploaded_device_ = uploader_->upload(*film.shot->film);
-            uploaded_ = film.shot->film;
-        }
-        film.device = uploaded_device_;
+    if (shot->device_film != nullptr) {
+        return *shot->device_film;
     }
-    return film;
+    if (shot->film == nullptr) {
+        return {};
+    }
+    if (uploaded_ != shot->film) {
+        uploaded_device_ = uploader_->upload(*shot->film);
+        uploaded_ = shot->film;
+    }
+    return uploaded_device_;
 }
 
 void ViewWindow::draw() {
     const DisplayRequest request =
-        choose_display(state().shown, film_of(Panel::cpu), film_of(Panel::vulkan), static_cast<std::uint32_t>(input_.width), legend_);
+        choose_display(state().shown, film_of(Panel::cpu), film_of(Panel::vulkan), static_cast<std::uint32_t>(input_.width),
+                       presenter_->range(), legend_);
     presenter_->draw(request, {static_cast<std::uint32_t>(input_.width), static_cast<std::uint32_t>(input_.height)}, *ImGui::GetDrawData());
     if (!opened_) {
         opened_ = true;
