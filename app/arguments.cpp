@@ -32,7 +32,7 @@ int parse_side(const std::string& text, const std::string& side) {
 }
 
 /// What is no number at all is left to the option's own conversion.
-CLI::Validator number_that(const char* is, bool (*holds)(double)) {
+CLI::Validator number_that(const std::string& is, const std::function<bool(double)>& holds) {
     const auto reason = [is, holds](const std::string& text) {
         double value = 0;
         const bool passes = !CLI::detail::lexical_cast(text, value) || holds(value);
@@ -53,6 +53,11 @@ CLI::Validator positive_number() {
 
 CLI::Validator non_negative_number() {
     return number_that("a number from 0 up", [](double x) { return std::isfinite(x) && x >= 0; });
+}
+
+CLI::Validator number_between(double least, double most) {
+    return number_that(fmt::format("a number from {} to {}", least, most),
+                       [least, most](double x) { return x >= least && x <= most; });
 }
 
 void add_integrator_option(CLI::App& command, RenderArguments& arguments) {
@@ -80,6 +85,7 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
         ->check(finite_number());
     command.add_option("--aperture", request.lens_radius, "Radius of the lens, metres")->check(non_negative_number());
     command.add_option("--focus", request.focus_distance, "Distance in focus, metres")->check(positive_number());
+    add_viewpoint_options(command, arguments);
     command
         .add_option("--ignore-extension", request.ignored_extensions,
                     "Load the file without this glTF extension, though it requires it; may be repeated")

@@ -29,6 +29,7 @@ struct RenderArguments {
 CLI::Validator finite_number();
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
+CLI::Validator number_between(double least, double most);
 
 void add_integrator_option(CLI::App& command, RenderArguments& arguments);
 
@@ -43,6 +44,9 @@ void add_oracle_option(CLI::App& command, RenderArguments& arguments);
 
 /// Throws Error where the mode is unknown, stands without the oracle, or an option stands with it that means nothing to it.
 void resolve_oracle_mode(const RenderArguments& arguments);
+
+/// Another place for the camera, and a sun; add_scene_options calls it.
+void add_viewpoint_options(CLI::App& command, RenderArguments& arguments);
 
 /// How ris and restir resample; add_scene_options and resolve_names call these.
 void add_resampling_options(CLI::App& command, RenderArguments& arguments);

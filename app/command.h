@@ -20,5 +20,6 @@ void add_verify(CLI::App& app, Run& run);
 void add_replay(CLI::App& app, Run& run);
 void add_converge(CLI::App& app, Run& run);
 void add_stability(CLI::App& app, Run& run);
+void add_view(CLI::App& app, Run& run);
 
 }  // namespace diptych::app

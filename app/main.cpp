@@ -48,6 +48,7 @@ int run_program(int argc, char** argv) {
     add_replay(app, run);
     add_converge(app, run);
     add_stability(app, run);
+    add_view(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {

@@ -88,6 +88,13 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
 
 }  // namespace
 
+LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome) {
+    LayeredImage layers = develop(film);
+    layers.metadata = render_metadata(request, outcome);
+    save(request, layers);
+    return layers;
+}
+
 Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
                        const std::atomic<bool>& cancel, const PictureAudience& audience, const PictureChain& chain) {
     const double device_seconds = renderer.device_seconds();
@@ -125,9 +132,7 @@ Picture render_picture(Renderer& renderer, const RenderRequest& request, std::ui
         report_error(fmt::format("{}: interrupted before the first sample; nothing to save", request.output));
         return picture;
     }
-    LayeredImage layers = develop(film);
-    layers.metadata = render_metadata(request, outcome);
-    save(request, layers);
+    const LayeredImage layers = save_film(film, request, outcome);
     if (audience.live != nullptr) {
         audience.live->show(request.output, layers.color);
     }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "render/render_metadata.h"
 #include "render/render_request.h"
 #include "render/renderer.h"
 
@@ -16,6 +17,9 @@ struct Picture {
     bool saved = false;  // not where an interrupt came before the first sample
     bool interrupted = false;
 };
+
+/// Develops the film and writes request.output with the metadata of both, by its extension; returns what it wrote. Throws Error.
+LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome);
 
 /// A picture's place in a chain of them, each of which goes on from the one before.
 struct PictureChain {

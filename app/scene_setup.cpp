@@ -63,20 +63,13 @@ Environment requested_environment(const std::string& text, std::vector<std::stri
     return environment;
 }
 
-void place_environment(Scene& scene, const RenderRequest& request) {
+void find_environment(Scene& scene, const RenderRequest& request) {
     if (!request.environment.empty()) {
         scene.environment = requested_environment(request.environment, scene.warnings);
-    } else if (!has_light(scene)) {
+    } else if (!has_light(scene) && !request.sun) {
         scene.environment = neutral_sky();
         scene.warnings.push_back(fmt::format("{}: the scene has no light: lit by a neutral sky", scene.name));
     }
-    const bool turned = request.environment_scale != 1 || request.environment_rotation != 0;
-    if (scene.environment.kind == Environment::Kind::none && turned) {
-        throw Error(fmt::format(
-            "{}: --env-scale and --env-rotate want an environment, and the scene has none: give --env", scene.name));
-    }
-    scene.environment.scale *= static_cast<float>(request.environment_scale);
-    scene.environment.rotation += request.environment_rotation * std::numbers::pi / 180;
 }
 
 std::string camera_list(const Scene& scene) {
@@ -103,19 +96,13 @@ int find_camera(const Scene& scene, const std::string& wanted) {
     return static_cast<int>(index);
 }
 
-void place_camera(Scene& scene, RenderRequest& request) {
+void choose_camera(Scene& scene, RenderRequest& request) {
     if (!request.camera.empty()) {
         request.settings.camera = find_camera(scene, request.camera);
     } else if (scene.cameras.empty()) {
         scene.cameras.push_back(frame_scene(scene));
         scene.warnings.push_back(fmt::format("{}: the scene has no camera: seen by one that frames it", scene.name));
     }
-    Camera& camera = scene.cameras[static_cast<std::size_t>(request.settings.camera)];
-    if (request.lens_radius.value_or(0) > 0 && !request.focus_distance) {
-        throw Error("--aperture: wants --focus, the distance in focus");
-    }
-    camera.lens_radius = request.lens_radius.value_or(camera.lens_radius);
-    camera.focus_distance = request.focus_distance.value_or(camera.focus_distance);
 }
 
 }  // namespace
@@ -134,14 +121,48 @@ bool has_light(const Scene& scene) {
     return false;
 }
 
-Scene prepare_scene(RenderArguments& arguments) {
-    RenderRequest& request = arguments.request;
+Scene load_requested(RenderRequest& request) {
     Scene scene = load_gltf(request.scene, {request.ignored_extensions});
     if (scene.name.empty()) {
         scene.name = request.scene;
     }
-    place_environment(scene, request);
-    place_camera(scene, request);
+    find_environment(scene, request);
+    choose_camera(scene, request);
+    return scene;
+}
+
+void place_lights(const Scene& loaded, const RenderRequest& request, Scene& scene) {
+    const bool turned = request.environment_scale != 1 || request.environment_rotation != 0;
+    if (loaded.environment.kind == Environment::Kind::none && turned) {
+        throw Error(fmt::format(
+            "{}: --env-scale and --env-rotate want an environment, and the scene has none: give --env", loaded.name));
+    }
+    const glm::vec3 scale = loaded.environment.scale * static_cast<float>(request.environment_scale);
+    const double rotation = loaded.environment.rotation + request.environment_rotation * std::numbers::pi / 180;
+    const std::size_t lights = loaded.lights.size();
+    scene.environment.scale = scale;
+    scene.environment.rotation = rotation;
+    scene.lights.resize(lights);
+    if (request.sun) {
+        scene.lights.push_back(sun_light(*request.sun));
+    }
+}
+
+void place_camera(const RenderRequest& request, Scene& scene) {
+    Camera& camera = scene.cameras[static_cast<std::size_t>(request.settings.camera)];
+    if (request.lens_radius.value_or(0) > 0 && !request.focus_distance) {
+        throw Error("--aperture: wants --focus, the distance in focus");
+    }
+    place_at(request.viewpoint, camera);
+    camera.lens_radius = request.lens_radius.value_or(camera.lens_radius);
+    camera.focus_distance = request.focus_distance.value_or(camera.focus_distance);
+}
+
+Scene prepare_scene(RenderArguments& arguments) {
+    RenderRequest& request = arguments.request;
+    Scene scene = load_requested(request);
+    place_lights(scene, request, scene);
+    place_camera(request, scene);
     resolve_size(arguments, scene.cameras[static_cast<std::size_t>(request.settings.camera)]);
     report_warnings(scene.warnings);
     return scene;

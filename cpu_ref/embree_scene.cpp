@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <limits>
+#include <utility>
 
 #include "error.h"
 #include "leaves.h"
@@ -177,30 +178,64 @@ EmbreeScene::Root EmbreeScene::build_root(const PackedScene& packed) const {
         rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(root.scene.get());
+    root.revision = packed.revisions.instances;
     return root;
 }
 
-void EmbreeScene::move_to(const PackedScene& moment) {
-    if (moment.instances.size() != root_.placements.size()) {
-        throw Error("Embree: " + std::to_string(moment.instances.size()) + " instances where the moment before had " +
+void EmbreeScene::require_instances(const PackedScene& packed) const {
+    if (packed.instances.size() != root_.placements.size()) {
+        throw Error("Embree: " + std::to_string(packed.instances.size()) + " instances where the moment before had " +
                     std::to_string(root_.placements.size()));
     }
-    if (moment.keeps_previous) {
-        std::swap(root_, previous_);
+}
+
+void EmbreeScene::place_all(const PackedScene& packed, Root& root) {
+    const std::uint64_t revision = std::exchange(root.revision, packed.revisions.instances);
+    if (revision != 0 && revision == root.revision) {
+        return;
     }
     bool moved = false;
-    for (std::size_t i = 0; i < moment.instances.size(); ++i) {
-        const Placement next = placement(moment, i);
-        if (next != root_.placements[i]) {
-            root_.placements[i] = next;
-            place(rtcGetGeometry(root_.scene.get(), static_cast<unsigned>(i)), next);
+    for (std::size_t i = 0; i < packed.instances.size(); ++i) {
+        const Placement next = placement(packed, i);
+        if (next != root.placements[i]) {
+            root.placements[i] = next;
+            place(rtcGetGeometry(root.scene.get(), static_cast<unsigned>(i)), next);
             moved = true;
         }
     }
     if (moved) {
-        rtcCommitScene(root_.scene.get());
+        rtcCommitScene(root.scene.get());
     }
+}
+
+void EmbreeScene::move_to(const PackedScene& moment) {
+    require_instances(moment);
+    if (moment.keeps_previous) {
+        std::swap(root_, previous_);
+    }
+    place_all(moment, root_);
     check("move");
+}
+
+void EmbreeScene::reconfigure(const PackedScene& packed) {
+    require_instances(packed);
+    for (std::size_t mesh = 0; mesh < meshes_.size(); ++mesh) {
+        const MeshRange range = packed.meshes[mesh];
+        for (std::uint32_t i = 0; i < range.geometry_count; ++i) {
+            if (packed.geometry_extents[range.first_geometry + i].alpha) {
+                rtcSetGeometryUserData(rtcGetGeometry(meshes_[mesh].get(), i), const_cast<PackedScene*>(&packed));
+            }
+        }
+    }
+    place_all(packed, root_);
+    if (!packed.keeps_previous) {
+        previous_ = {};
+    } else if (previous_.scene) {
+        place_all(packed, previous_);
+    } else {
+        previous_ = build_root(packed);
+    }
+    check("reconfigure");
 }
 
 EmbreeHit EmbreeScene::closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {

@@ -49,6 +49,10 @@ public:
     /// there are more or fewer of them.
     void move_to(const PackedScene& moment);
 
+    /// The same scene under other settings: its instances and the moment before, if it keeps one, which is this one then. Hits in materials
+    /// with alpha are put to `packed` from now on; vertices and indices stay those of the first. Throws Error likewise.
+    void reconfigure(const PackedScene& packed);
+
     /// Bytes that Embree holds for its structures.
     std::uint64_t bytes() const { return static_cast<std::uint64_t>(bytes_->load()); }
 
@@ -71,12 +75,15 @@ private:
     struct Root {
         ScenePtr scene;
         std::vector<Placement> placements;
+        std::uint64_t revision = 0;  // of the instances
     };
 
     static Placement placement(const PackedScene& packed, std::size_t instance);
     static void place(RTCGeometry geometry, const Placement& placement);
     ScenePtr build_mesh(const PackedScene& packed, std::size_t mesh) const;
     Root build_root(const PackedScene& packed) const;
+    void require_instances(const PackedScene& packed) const;
+    static void place_all(const PackedScene& packed, Root& root);
     bool occluded(RTCScene root, const glm::vec3& origin, const glm::vec3& direction, float t_max,
                   std::uint32_t alpha_key) const;
     void check(const char* what) const;

@@ -27,6 +27,7 @@ struct TopLevel {
     Buffer scratch;
     Buffer instances;
     std::vector<vk::AccelerationStructureInstanceKHR> described;  // as it was built
+    std::uint64_t revision = 0;  // of the instances that it describes
 };
 
 /// How much memory one batch of builds may take; a mesh that needs more is a batch of its own.

@@ -19,6 +19,10 @@ bool is_lasting(std::string_view name) {
     return std::find(lasting.begin(), lasting.end(), name) != lasting.end();
 }
 
+bool holds(std::uint64_t revision, std::uint64_t wanted) {
+    return wanted != 0 && revision == wanted;
+}
+
 template <typename T>
 void replace(const Gpu& gpu, Uploader& uploader, const char* name, const std::vector<T>& elements, Buffer& buffer) {
     const std::span<const T> all(elements);
@@ -39,29 +43,44 @@ SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed) {
     SCENE_BUFFERS(UPLOAD_BUFFER)
 #undef UPLOAD_BUFFER
     uploader.finish();
+    scene.revisions = packed.revisions;
     return scene;
 }
 
 void replace_scene(const Gpu& gpu, const PackedScene& packed, SceneMemory& scene) {
     Uploader uploader(gpu, std::uint64_t{8} << 20U);
-#define REPLACE_BUFFER(Type, name) replace(gpu, uploader, #name, packed.name, scene.name);
+#define REPLACE_BUFFER(Type, name)                                                                                     \
+    if (scene.name.size != std::span(packed.name).size_bytes() ||                                                      \
+        !holds(scene.revisions.name, packed.revisions.name)) {                                                         \
+        replace(gpu, uploader, #name, packed.name, scene.name);                                                        \
+    }
     SCENE_BUFFERS(REPLACE_BUFFER)
 #undef REPLACE_BUFFER
     uploader.finish();
+    scene.revisions = packed.revisions;
 }
 
-void upload_moment(Uploader& uploader, const PackedScene& moment, const SceneMemory& scene) {
-    const auto overwrite = [&](const Buffer& buffer, const char* name, std::span<const std::byte> bytes) {
+void upload_moment(Uploader& uploader, const PackedScene& moment, SceneMemory& scene) {
+    bool uploads = false;
+    const auto overwrite = [&](const Buffer& buffer, const char* name, std::span<const std::byte> bytes,
+                               std::uint64_t wanted, std::uint64_t& revision) {
         if (buffer.size != bytes.size()) {
             throw Error(std::string("scene buffer ") + name + ": " + std::to_string(bytes.size()) +
                         " bytes where the moment before had " + std::to_string(buffer.size));
         }
-        uploader.upload(buffer, bytes);
+        if (!holds(revision, wanted)) {
+            uploader.upload(buffer, bytes);
+            revision = wanted;
+            uploads = true;
+        }
     };
-#define UPLOAD_BUFFER(Type, name) overwrite(scene.name, #name, std::as_bytes(std::span(moment.name)));
+#define UPLOAD_BUFFER(Type, name)                                                                                      \
+    overwrite(scene.name, #name, std::as_bytes(std::span(moment.name)), moment.revisions.name, scene.revisions.name);
     MOVING_BUFFERS(UPLOAD_BUFFER)
 #undef UPLOAD_BUFFER
-    uploader.finish();
+    if (uploads) {
+        uploader.finish();
+    }
 }
 
 std::uint64_t moving_bytes(const PackedScene& moment) {

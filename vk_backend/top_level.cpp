@@ -91,6 +91,7 @@ void build(const Gpu& gpu, const TopLevel& top, const Buffer& instances, const B
 TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const BottomLevels& bottom) {
     TopLevel top;
     top.described = describe_instances(packed, bottom);
+    top.revision = packed.revisions.instances;
     const Buffer instances = upload_instances(gpu, top.described);
     TopLevelBuild asked = describe_build(instances.address);
     asked.info.setGeometries(asked.geometry);
@@ -108,11 +109,15 @@ TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const Bottom
 }
 
 void move_top_level(const Gpu& gpu, const PackedScene& moment, const BottomLevels& bottom, TopLevel& top) {
-    std::vector<vk::AccelerationStructureInstanceKHR> described = describe_instances(moment, bottom);
-    if (described.size() != top.described.size()) {
-        throw Error("Vulkan device " + gpu.name + ": " + std::to_string(described.size()) +
+    if (moment.instances.size() != top.described.size()) {
+        throw Error("Vulkan device " + gpu.name + ": " + std::to_string(moment.instances.size()) +
                     " instances where the moment before had " + std::to_string(top.described.size()));
     }
+    if (top.revision != 0 && top.revision == moment.revisions.instances) {
+        return;
+    }
+    std::vector<vk::AccelerationStructureInstanceKHR> described = describe_instances(moment, bottom);
+    top.revision = moment.revisions.instances;
     const std::span<const std::byte> next = std::as_bytes(std::span(described));
     if (described.empty() || std::memcmp(next.data(), top.described.data(), next.size()) == 0) {
         return;

@@ -64,8 +64,23 @@ public:
     std::string repeat_command(Panel panel, const std::string& output) const;
 
 private:
+    /// What, beside the state, a job says; of the latest.
+    struct Posting {
+        bool moving = false;
+        bool paused = false;
+        ShownPanel shown = ShownPanel::cpu;
+        double frames_per_second = 0;
+
+        bool operator==(const Posting&) const = default;
+    };
+
+    template <class Work>
+    void guarded(const Work& work);
     void adopt(LoadedScene scene);
-    void post();
+    void place_seen();
+    void play(double seconds);
+    void post(double now);
+    void post_to(Panel panel, bool rests);
 
     SceneLoader loader_;
     LoadedScene scene_;
@@ -74,15 +89,15 @@ private:
     std::array<ErrorHistory, 2> histories_;
     VerificationLight light_;
     std::optional<RenderedState> posted_;
+    Posting posting_;
+    std::array<bool, 2> resting_ = {true, true};
     std::uint64_t version_ = 0;
     bool moving_ = false;
     double last_step_ = 0;
-    double last_change_ = 0;
+    double last_single_ = -1e9;  // change that nothing held
+    bool in_burst_ = false;
     std::vector<std::string> errors_;
     std::array<std::string, 2> reported_;  // panels' errors
 };
-
-/// The request that `render` repeats this state with: viewpoint, time and sun included.
-RenderRequest request_of(const RenderedState& state, const Scene& scene);
 
 }  // namespace diptych::app

@@ -9,7 +9,8 @@ namespace diptych::app {
 enum class Invalidation {
     nothing,
     picture,   // another seed: the film begins anew
-    moment,    // camera, time, light that turns or dims: what moves is packed again
+    view,      // the camera
+    moment,    // time, light that turns or dims: what moves is packed again
     settings,  // integrator, size, features: Renderer::reconfigure
     scene,     // another scene: everything
 };

@@ -1,10 +1,8 @@
 // Opens scenes while the present one goes on being shown, and opens them again when their files change.
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,6 +16,9 @@
 
 namespace diptych::app {
 
+/// When a file was last written; nothing where it is missing.
+using FileStamp = std::optional<std::filesystem::file_time_type>;
+
 /// A scene as loaded: with the request's environment, but neither its scale, rotation and sun, nor its viewpoint.
 struct LoadedScene {
     std::uint64_t generation = 0;  // RenderedState::scene
@@ -25,6 +26,7 @@ struct LoadedScene {
     RenderRequest request;  // that it was asked for with; settings.camera is an index into the scene's
     Bounds bounds;          // at rest
     std::vector<std::filesystem::path> files;  // that it is made of
+    std::vector<FileStamp> stamps;             // of these, just before they were read
     bool reloaded = false;  // because a file changed: camera and settings stay
 };
 
@@ -55,8 +57,6 @@ private:
     void run();
     bool files_changed();
 
-    using Stamp = std::optional<std::filesystem::file_time_type>;
-
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::optional<RenderRequest> wanted_;
@@ -66,8 +66,8 @@ private:
     std::string loading_;
     RenderRequest watched_request_;
     std::vector<std::filesystem::path> watched_;
-    std::vector<Stamp> stamps_;   // as loaded
-    std::vector<Stamp> changing_; // as of the last look, while they change
+    std::vector<FileStamp> stamps_;   // as loaded
+    std::vector<FileStamp> changing_; // as of the last look, while they change
     std::uint64_t generation_ = 1;
     bool stop_ = false;
     std::thread thread_;

@@ -23,6 +23,8 @@ struct DeviceFilm;  // vk_backend/device_film.h
 
 namespace diptych::app {
 
+class PanelEngine;
+
 /// What a film as a whole says.
 struct FilmFigures {
     std::uint64_t version = 0;  // of the job whose film was looked at
@@ -88,8 +90,8 @@ public:
     /// Called on the worker's thread after every shot, say to wake who waits for it. Set before the first job.
     void on_shot(std::function<void()> hook);
 
-    /// Between two samples; the film stays as it is. Coordinates are those of the full picture. The futures throw Error where there is no
-    /// renderer or it keeps no record.
+    /// Between two samples; the film stays as it is. Pixels count in the full picture: of a preview it is the one that covers them. The
+    /// futures throw Error where there is no renderer, or it keeps no record.
     std::future<RecordedPath> record_path(const shared::PathQuery& query, std::uint32_t seed);
     /// The film as it is.
     std::future<KeptFilm> film();
@@ -100,19 +102,19 @@ public:
     std::uint32_t seed_offset() const { return seed_offset_; }
 
 private:
-    class Engine;  // what the thread alone touches
-
-    void run();
+    void run(RendererFactory factory);
+    void request(std::function<void(PanelEngine*)> task);
 
     const std::string backend_;
     const std::uint32_t seed_offset_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::optional<ViewJob> waiting_;
-    std::vector<std::function<void(Engine&)>> requests_;
+    std::optional<RenderedState> taken_;  // of the job at hand
+    std::vector<std::function<void(PanelEngine*)>> requests_;  // null: there is no engine any more
     std::optional<RendererFactory> factory_;  // for the thread to take
     std::function<void()> hook_;
-    std::shared_ptr<const PanelShot> shot_;
+    std::shared_ptr<const PanelShot> shot_ = std::make_shared<PanelShot>();
     std::atomic<bool> cancel_ = false;
     bool may_cancel_ = false;  // the job at hand has shown what it must
     bool stop_ = false;

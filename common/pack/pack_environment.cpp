@@ -11,9 +11,11 @@ namespace {
 
 double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
+float largest(const glm::vec3& c) { return std::max({c.x, c.y, c.z}); }
+
 /// Mean over one texel's area of what bilinear filtering makes of the map: the tent over the texel integrates to (1, 6, 1)/8 each
 /// way. So a black texel beside a bright one keeps a probability.
-double filtered_luminance(const Environment& e, int x, int y) {
+double filtered_luminance(const Environment& e, const glm::vec3& tint, int x, int y) {
     constexpr std::array<double, 3> tent = {0.125, 0.75, 0.125};
     double sum = 0;
     for (int j = -1; j <= 1; ++j) {
@@ -23,7 +25,7 @@ double filtered_luminance(const Environment& e, int x, int y) {
             const auto texel = static_cast<std::size_t>(row) * static_cast<std::size_t>(e.width) +
                                static_cast<std::size_t>(column);
             const double weight = tent[static_cast<std::size_t>(i + 1)] * tent[static_cast<std::size_t>(j + 1)];
-            sum += weight * luminance(glm::dvec3(e.texels[texel]) * glm::dvec3(e.scale));
+            sum += weight * luminance(glm::dvec3(e.texels[texel]) * glm::dvec3(tint));
         }
     }
     return sum;
@@ -31,18 +33,33 @@ double filtered_luminance(const Environment& e, int x, int y) {
 
 }  // namespace
 
-double pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
+void place_environment(const Scene& scene, PackedScene& packed) {
     const Environment& e = scene.environment;
     shared::Environment& out = packed.constants.environment;
     out.scale = e.scale;
     out.rotation = {static_cast<float>(std::cos(e.rotation)), static_cast<float>(std::sin(e.rotation))};
+    packed.environment_luminance = packed.environment_mean * largest(e.scale);
+}
+
+glm::vec3 environment_tint(const Environment& environment) {
+    const float scale = largest(environment.scale);
+    return scale > 0 ? environment.scale / scale : glm::vec3(0);
+}
+
+void pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
+    const Environment& e = scene.environment;
+    shared::Environment& out = packed.constants.environment;
+    packed.environment_tint = environment_tint(e);
     if (e.kind == Environment::Kind::none) {
         out.kind = shared::ENVIRONMENT_NONE;
-        return 0;
+        place_environment(scene, packed);
+        return;
     }
     if (e.kind == Environment::Kind::constant) {
         out.kind = shared::ENVIRONMENT_CONSTANT;
-        return luminance(glm::dvec3(e.scale));
+        packed.environment_mean = luminance(glm::dvec3(packed.environment_tint));
+        place_environment(scene, packed);
+        return;
     }
     out.kind = shared::ENVIRONMENT_MAP;
     out.size = {static_cast<std::uint32_t>(e.width), static_cast<std::uint32_t>(e.height)};
@@ -54,10 +71,11 @@ double pack_environment(const Scene& scene, const RenderSettings& settings, Pack
         const double bottom = std::numbers::pi * (y + 1) / e.height;
         const double solid_angle = 2 * std::numbers::pi / e.width * (std::cos(top) - std::cos(bottom));
         for (int x = 0; x < e.width; ++x) {
-            weights.push_back(filtered_luminance(e, x, y) * solid_angle);
+            weights.push_back(filtered_luminance(e, packed.environment_tint, x, y) * solid_angle);
             mean += weights.back() / (4 * std::numbers::pi);
         }
     }
+    packed.environment_mean = mean;
     const std::vector<double> pmf = pick_probabilities(weights, 0.0);
     packed.environment_texels.reserve(e.texels.size());
     for (std::size_t i = 0; i < e.texels.size(); ++i) {
@@ -66,7 +84,7 @@ double pack_environment(const Scene& scene, const RenderSettings& settings, Pack
     if (settings.integrator != Integrator::brdf && mean > 0) {
         packed.environment_table = build_alias_table(pmf);
     }
-    return mean;
+    place_environment(scene, packed);
 }
 
 }  // namespace diptych

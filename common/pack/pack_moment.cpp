@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 
 #include "error.h"
@@ -10,6 +11,14 @@ void require_same(const Scene& scene, std::size_t now, std::size_t then, const c
     if (now != then) {
         throw Error(scene.name + ": " + what + ": " + std::to_string(now) + " where the moment before had " +
                     std::to_string(then));
+    }
+}
+
+/// The environment's tables hold for any scale that is a multiple of the one they were built under, but 0.
+void require_same_tint(const Scene& scene, const PackedScene& packed) {
+    const glm::vec3 off = environment_tint(scene.environment) - packed.environment_tint;
+    if (glm::dot(off, off) > 1e-10F) {
+        throw Error(scene.name + ": environment: is of another tint than at the moment before, or was dark");
     }
 }
 
@@ -49,6 +58,14 @@ bool uses(const PackedScene& packed, std::size_t instance, const std::vector<boo
     return false;
 }
 
+bool any(const std::vector<bool>& flags) {
+    return std::find(flags.begin(), flags.end(), true) != flags.end();
+}
+
+void rename_if(bool changed, std::uint64_t& revision) {
+    revision = changed ? new_revision() : revision;
+}
+
 bool same_lights(const std::vector<shared::PunctualLight>& a, const std::vector<shared::PunctualLight>& b) {
     return a.size() == b.size() &&
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(shared::PunctualLight)) == 0);
@@ -62,9 +79,13 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     if (!packed.scene_instances.empty() && packed.scene_instances.back() >= scene.instances.size()) {
         require_same(scene, scene.instances.size(), packed.scene_instances.back() + 1U, "instances");
     }
+    require_same_tint(scene, packed);
     keep_previous(packed);
+    Revisions& revisions = packed.revisions;
     const std::vector<bool> materials = move_materials(scene, packed);
+    rename_if(any(materials), revisions.materials);
     const std::vector<bool> instances = move_instances(scene, packed);
+    rename_if(any(instances), revisions.instances);
     bool weigh = false;
     for (std::size_t i = 0; i < instances.size(); ++i) {
         if (packed.instances[i].first_emitter_slot == shared::NONE) {
@@ -81,9 +102,21 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     for (std::size_t i = 0; i < before.size(); ++i) {
         packed.punctual_lights[i].pmf = before[i].pmf;
     }
-    if (weigh || !same_lights(before, packed.punctual_lights)) {
+    const double environment_luminance = packed.environment_luminance;
+    place_environment(scene, packed);
+    weigh = weigh || environment_luminance != packed.environment_luminance ||
+            !same_lights(before, packed.punctual_lights);
+    if (weigh) {
         weigh_lights(packed);
     }
+    rename_if(weigh, revisions.emissive_triangles);
+    rename_if(weigh, revisions.punctual_lights);
+    rename_if(weigh, revisions.light_table);
+    pack_camera(scene, settings, packed);
+}
+
+void pack_view(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
+    keep_previous(packed);
     pack_camera(scene, settings, packed);
 }
 

@@ -20,9 +20,14 @@ bool place_instance(const Instance& instance, const glm::dvec3& origin, const gl
 /// The camera of the settings, moved by -origin; the whole image plane has the aspect of the film.
 void pack_camera(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
-/// Radiance and alias table of the environment; leaves constants.environment.pmf to pack_lights. Returns the mean luminance over
-/// the sphere.
-double pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+/// Radiance and alias table of the environment; leaves constants.environment.pmf to pack_lights.
+void pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+
+/// Its rotation and scale alone.
+void place_environment(const Scene& scene, PackedScene& packed);
+
+/// Its scale over the largest component; 0 where that is 0. What its tables were built under.
+glm::vec3 environment_tint(const Environment& environment);
 
 /// Emissive triangles, punctual lights and the table that picks among all lights. Needs everything above.
 void pack_lights(const Scene& scene, PackedScene& packed);
@@ -38,6 +43,9 @@ void weigh_lights(PackedScene& packed);
 
 /// What moves becomes the moment before, where reuse will look back to it; until then that is this one.
 void keep_previous(PackedScene& packed);
+
+/// A revision that no array has.
+std::uint64_t new_revision();
 
 /// Throws Error unless `size` elements of a buffer can be named by 32-bit indices.
 void require_indexable(const Scene& scene, std::size_t size, const char* what);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "error.h"
@@ -59,11 +60,25 @@ void keep_previous(PackedScene& packed) {
         return;
     }
     packed.constants.previous_camera = packed.constants.camera;
-    if ((packed.features & shared::FEATURE_MOTION) != 0) {
-        packed.previous_instances = packed.instances;
-        packed.previous_emissive_triangles = packed.emissive_triangles;
-        packed.previous_punctual_lights = packed.punctual_lights;
+    if ((packed.features & shared::FEATURE_MOTION) == 0) {
+        return;
     }
+    const auto copy = [](const auto& now, std::uint64_t revision, auto& before, std::uint64_t& revision_before) {
+        if (revision == 0 || revision != revision_before) {
+            before = now;
+            revision_before = revision;
+        }
+    };
+    Revisions& r = packed.revisions;
+    copy(packed.instances, r.instances, packed.previous_instances, r.previous_instances);
+    copy(packed.emissive_triangles, r.emissive_triangles, packed.previous_emissive_triangles,
+         r.previous_emissive_triangles);
+    copy(packed.punctual_lights, r.punctual_lights, packed.previous_punctual_lights, r.previous_punctual_lights);
+}
+
+std::uint64_t new_revision() {
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
 }
 
 void require_indexable(const Scene& scene, std::size_t size, const char* what) {
@@ -92,12 +107,49 @@ PackedScene pack_scene(const Scene& scene, const RenderSettings& settings) {
     pack_meshes(scene, packed);
     pack_instances(scene, packed);
     pack_camera(scene, settings, packed);
-    packed.environment_luminance = pack_environment(scene, settings, packed);
+    pack_environment(scene, settings, packed);
     pack_lights(scene, packed);
-    keep_previous(packed);
     // A reader of the last vertex may fetch 16 bytes at once, as Embree does.
     packed.positions.emplace_back(0.0F);
+#define NAME_CONTENTS(Type, name) packed.revisions.name = new_revision();
+    SCENE_BUFFERS(NAME_CONTENTS)
+#undef NAME_CONTENTS
+    keep_previous(packed);
     return packed;
+}
+
+namespace {
+
+void forget_previous(PackedScene& packed) {
+    packed.constants.previous_camera = {};
+    packed.previous_instances.clear();
+    packed.previous_emissive_triangles.clear();
+    packed.previous_punctual_lights.clear();
+    packed.revisions.previous_instances = new_revision();
+    packed.revisions.previous_emissive_triangles = new_revision();
+    packed.revisions.previous_punctual_lights = new_revision();
+}
+
+}  // namespace
+
+bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
+    check_atlas(settings);
+    constexpr std::uint32_t of_arrays = shared::FEATURE_TEXTURES | shared::FEATURE_NORMAL_MAPS | shared::FEATURE_SECOND_UV;
+    const std::uint32_t features = needed_features(scene, settings);
+    const bool lays_out_lights = settings.integrator != Integrator::brdf;
+    if (((features ^ packed.features) & of_arrays) != 0 ||
+        lays_out_lights != (packed.constants.integrator != shared::INTEGRATOR_BRDF) ||
+        environment_tint(scene.environment) != packed.environment_tint ||
+        scene.lights.size() != packed.punctual_lights.size()) {
+        return false;
+    }
+    pack_moment(scene, settings, packed);
+    packed.features = features;
+    packed.keeps_previous = settings.moves;
+    pack_settings(settings, packed.constants);
+    forget_previous(packed);
+    keep_previous(packed);
+    return true;
 }
 
 }  // namespace diptych

@@ -34,7 +34,15 @@ struct SceneBuffers {
 };
 }  // namespace shared
 
+/// A name for the contents of each array: those of one name are equal, whatever copy they are in. 0 names nothing.
+struct Revisions {
+#define DECLARE_REVISION(Type, name) std::uint64_t name = 0;
+    SCENE_BUFFERS(DECLARE_REVISION)
+#undef DECLARE_REVISION
+};
+
 struct PackedScene : shared::SceneBuffers {
+    Revisions revisions;  // for renderers to skip what they have; who writes an array by hand sets its revision to 0
     std::vector<MeshRange> meshes;
     std::vector<GeometryExtent> geometry_extents;  // parallel to geometries
     std::vector<std::uint32_t> instance_meshes;    // parallel to instances: index into meshes
@@ -48,6 +56,8 @@ struct PackedScene : shared::SceneBuffers {
     glm::dvec3 origin{0};                         // world space of the file minus this is ours
     double radius = 1;                            // of the scene as first packed, for picking probabilities
     double environment_luminance = 0;             // mean over the sphere
+    double environment_mean = 0;                  // the same where the largest component of its scale is 1
+    glm::vec3 environment_tint{0};                // its scale over the largest component; 0 where that is 0
     std::vector<glm::dvec3> mesh_centers;         // parallel to meshes: what was taken off their vertices
     std::vector<std::uint32_t> scene_instances;   // parallel to instances: index into Scene::instances
     std::vector<double> emitter_means;            // parallel to emissive_triangles: mean luminance of what they emit
@@ -68,9 +78,18 @@ std::uint64_t buffer_bytes(const PackedScene& packed);
 /// geometry's first vertex. Throws Error where the scene holds more than 32-bit indices can name.
 PackedScene pack_scene(const Scene& scene, const RenderSettings& settings);
 
-/// Overwrites what moves (MOVING_BUFFERS and the camera) with the same scene at another moment; nothing else is touched,
-/// and every index and count stays, light ids included. Origin and radius are those of pack_scene, so that a moment
-/// depends on no other. Keeps constants.seed. Throws Error where the scene is another one.
+/// Overwrites what moves (MOVING_BUFFERS, the camera, rotation and scale of the environment) with the same scene at another moment; nothing
+/// else is touched, and every index and count stays, light ids included. Origin and radius are those of pack_scene, so
+/// that a moment depends on no other. Keeps constants.seed. Throws Error where the scene is another one, an environment that was dark or
+/// of another tint included.
 void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+
+/// A moment in which nothing but the camera is another: pack_moment without a look at the rest.
+void pack_view(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+
+/// Goes on with other settings where no array's size or order depends on them: size, depth, sampler, weights, seed, most integrators. The
+/// scene may stand at another moment, which becomes the moment before as well. As pack_scene of it would have it, but for
+/// origin and radius, which stay. False, and nothing is done, where pack_scene must run anew.
+bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 }  // namespace diptych

@@ -35,6 +35,33 @@ void add_option(std::string& command, const char* option, const Value& value) {
     command += fmt::format(" {} {}", option, shell_quoted(fmt::format("{}", value)));
 }
 
+std::string triple(double x, double y, double z) {
+    return fmt::format("{},{},{}", x, y, z);
+}
+
+std::string triple(const std::optional<glm::dvec3>& v) {
+    return v ? triple(v->x, v->y, v->z) : "";
+}
+
+std::string sun_text(const std::optional<Sun>& sun) {
+    return sun ? triple(sun->azimuth, sun->elevation, sun->irradiance) : "";
+}
+
+void add_viewpoint_options(std::string& command, const RenderRequest& request) {
+    const Viewpoint& viewpoint = request.viewpoint;
+    const auto add = [&](const char* option, const std::string& value) {
+        if (!value.empty()) {
+            add_option(command, option, value);
+        }
+    };
+    add("--eye", triple(viewpoint.eye));
+    add("--look-at", triple(viewpoint.look_at));
+    add("--up", triple(viewpoint.up));
+    add("--fov", viewpoint.fov ? fmt::format("{}", *viewpoint.fov) : "");
+    add("--view-height", viewpoint.view_height ? fmt::format("{}", *viewpoint.view_height) : "");
+    add("--sun", sun_text(request.sun));
+}
+
 void add_resampling_options(std::string& command, const RenderSettings& settings) {
     const ResamplingSettings& resampling = settings.resampling;
     add_option(command, "--candidates", resampling.light_candidates);
@@ -79,6 +106,7 @@ void add_picture_options(std::string& command, const RenderRequest& request) {
     if (request.environment_rotation != 0) {
         add_option(command, "--env-rotate", request.environment_rotation);
     }
+    add_viewpoint_options(command, request);
     if (request.lens_radius) {
         add_option(command, "--aperture", *request.lens_radius);
     }
@@ -171,6 +199,12 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("environment", request.environment);
     add("environment_scale", request.environment_scale);
     add("environment_rotation", request.environment_rotation);
+    add("eye", triple(request.viewpoint.eye));
+    add("look_at", triple(request.viewpoint.look_at));
+    add("up", triple(request.viewpoint.up));
+    add("fov", request.viewpoint.fov ? fmt::format("{}", *request.viewpoint.fov) : "");
+    add("view_height", request.viewpoint.view_height ? fmt::format("{}", *request.viewpoint.view_height) : "");
+    add("sun", sun_text(request.sun));
     add("lens_radius", request.lens_radius ? fmt::format("{}", *request.lens_radius) : "");
     add("focus_distance", request.focus_distance ? fmt::format("{}", *request.focus_distance) : "");
     if (request.frames > 0) {

@@ -48,6 +48,15 @@ bool has_scheme(const std::string& uri) {
     return end != uri.end() && *end == ':' && end - uri.begin() > 1;
 }
 
+/// As the file is named, else as it is escaped.
+std::filesystem::path path_of_uri(const std::string& uri, const std::filesystem::path& folder) {
+    const std::filesystem::path plain = folder / from_utf8(decode_percent(uri));
+    const std::filesystem::path escaped = folder / from_utf8(uri);
+    std::error_code ignored;
+    const bool named_so = !std::filesystem::exists(plain, ignored) && std::filesystem::exists(escaped, ignored);
+    return named_so ? escaped : plain;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
@@ -116,6 +125,12 @@ std::string decode_percent(std::string_view text) {
     return decoded;
 }
 
+std::optional<std::filesystem::path> file_of_uri(const std::string& uri, const std::filesystem::path& folder) {
+    const bool embedded = uri.rfind("data:", 0) == 0;
+    const bool unusable = uri.empty() || has_scheme(uri) || decode_percent(uri).find('\0') != std::string::npos;
+    return embedded || unusable ? std::nullopt : std::optional(path_of_uri(uri, folder));
+}
+
 std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem::path& folder) {
     if (uri.rfind("data:", 0) == 0) {
         const std::size_t comma = uri.find(',');
@@ -142,13 +157,8 @@ std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem
     if (uri.find('\0') != std::string::npos || decode_percent(uri).find('\0') != std::string::npos) {
         throw Error("the URI holds a zero byte");
     }
-    std::filesystem::path path = folder / from_utf8(decode_percent(uri));
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored) && std::filesystem::exists(folder / from_utf8(uri), ignored)) {
-        path = folder / from_utf8(uri);
-    }
     try {
-        return read_bytes(path);
+        return read_bytes(path_of_uri(uri, folder));
     } catch (const Error& error) {
         throw Error("'" + uri + "': " + error.what());
     }

@@ -24,6 +24,9 @@ std::string decode_percent(std::string_view text);
 /// (escaped or not). Throws Error (its message without the file's name).
 std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem::path& folder);
 
+/// The file that such a URI names, escaped or not; nothing where it names none.
+std::optional<std::filesystem::path> file_of_uri(const std::string& uri, const std::filesystem::path& folder);
+
 /// The two chunks of a binary glTF.
 struct GlbChunks {
     std::string_view json;

@@ -3,12 +3,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/default_camera.h"
-
 namespace diptych {
 
 glm::dvec3 orbit_pivot(const Scene& scene, const Camera& camera) {
-    const Bounds bounds = scene_bounds(scene);
+    return orbit_pivot(scene_bounds(scene), camera);
+}
+
+glm::dvec3 orbit_pivot(const Bounds& bounds, const Camera& camera) {
     const glm::dvec3 centre = is_empty(bounds) ? glm::dvec3(0) : 0.5 * bounds.lo + 0.5 * bounds.hi;
     const glm::dvec3 eye(camera.camera_to_world[3]);
     const glm::dvec3 forward = -glm::dvec3(camera.camera_to_world[2]);

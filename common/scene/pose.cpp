@@ -18,17 +18,28 @@ float from_zero(double value) {
     return static_cast<float>(std::max(value, 0.0));
 }
 
+bool moves_node(const Channel& channel) {
+    return channel.property == AnimatedProperty::translation || channel.property == AnimatedProperty::rotation ||
+           channel.property == AnimatedProperty::scale;
+}
+
+void set_node(Node& node, AnimatedProperty property, const glm::dvec4& value) {
+    if (property == AnimatedProperty::translation) {
+        node.translation = glm::dvec3(value);
+    } else if (property == AnimatedProperty::rotation) {
+        node.rotation = value;
+    } else {
+        node.scale = glm::dvec3(value);
+    }
+}
+
 void set_property(Scene& scene, const Channel& channel, const glm::dvec4& value) {
     const auto target = static_cast<std::size_t>(channel.target);
     switch (channel.property) {
     case AnimatedProperty::translation:
-        scene.nodes[target].translation = glm::dvec3(value);
-        break;
     case AnimatedProperty::rotation:
-        scene.nodes[target].rotation = value;
-        break;
     case AnimatedProperty::scale:
-        scene.nodes[target].scale = glm::dvec3(value);
+        set_node(scene.nodes[target], channel.property, value);
         break;
     case AnimatedProperty::emissive_factor:
         scene.materials[target].moving_emission->factor = glm::max(glm::vec3(value), glm::vec3(0));
@@ -57,10 +68,10 @@ bool is_finite(const glm::dmat4& matrix) {
     throw Error(scene.name + ": " + object + " at " + std::to_string(seconds) + " s: " + reason);
 }
 
-std::vector<glm::dmat4> place_nodes(const Scene& scene, double seconds) {
+std::vector<glm::dmat4> place_nodes(const Scene& scene, const std::vector<Node>& nodes, double seconds) {
     std::vector<glm::dmat4> to_world;
-    to_world.reserve(scene.nodes.size());
-    for (const Node& node : scene.nodes) {
+    to_world.reserve(nodes.size());
+    for (const Node& node : nodes) {
         const glm::dmat4 local = node_matrix(node);
         to_world.push_back(node.parent == none ? local : to_world[static_cast<std::size_t>(node.parent)] * local);
         if (!is_finite(to_world.back())) {
@@ -104,7 +115,7 @@ void pose_scene(Scene& scene, double seconds) {
                                          static_cast<double>(material.moving_emission->strength));
         }
     }
-    const std::vector<glm::dmat4> to_world = place_nodes(scene, seconds);
+    const std::vector<glm::dmat4> to_world = place_nodes(scene, scene.nodes, seconds);
     const auto of = [&](int node) -> const glm::dmat4& { return to_world[static_cast<std::size_t>(node)]; };
     for (Instance& instance : scene.instances) {
         if (instance.node != none) {
@@ -121,6 +132,26 @@ void pose_scene(Scene& scene, double seconds) {
             light.light_to_world = view_of(scene, of(light.node), "light '" + light.name + "'", seconds);
         }
     }
+}
+
+Camera camera_at(const Scene& scene, std::size_t camera, double seconds) {
+    Camera posed = scene.cameras[camera];
+    if (posed.node == none) {
+        return posed;
+    }
+    std::vector<Node> nodes = scene.nodes;
+    for (const Animation& animation : scene.animations) {
+        for (const Channel& channel : animation.channels) {
+            if (moves_node(channel)) {
+                set_node(nodes[static_cast<std::size_t>(channel.target)], channel.property,
+                         sample_channel(channel, seconds));
+            }
+        }
+    }
+    const std::vector<glm::dmat4> to_world = place_nodes(scene, nodes, seconds);
+    posed.camera_to_world =
+        view_of(scene, to_world[static_cast<std::size_t>(posed.node)], "camera '" + posed.name + "'", seconds);
+    return posed;
 }
 
 std::optional<glm::dmat4> rigid_part(const glm::dmat4& matrix) {

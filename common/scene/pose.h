@@ -17,6 +17,9 @@ double duration(const Scene& scene);
 /// no earlier pose. Throws Error where a camera or light is left without a direction, or a transform is not finite.
 void pose_scene(Scene& scene, double seconds);
 
+/// One of the cameras at that moment, the scene left as it is. Throws Error likewise.
+Camera camera_at(const Scene& scene, std::size_t camera, double seconds);
+
 /// `matrix` without scale, shear and mirroring: its -Z is kept exactly, +Y as far as that allows. Nothing where either
 /// axis has length 0.
 std::optional<glm::dmat4> rigid_part(const glm::dmat4& matrix);

@@ -37,15 +37,7 @@ public:
           start_(Clock::now()),
           scene_(arena_.execute([&] { return std::make_unique<EmbreeScene>(packed); })) {
         build_seconds_ = seconds_since(start_);
-        film_.width = static_cast<int>(packed.constants.size.x);
-        film_.height = static_cast<int>(packed.constants.size.y);
-        clear_film();
-        if (resamples()) {
-            reuse_ = ResamplingFilms(packed.constants);
-            for (const std::string& pass : pass_names(packed.constants)) {
-                passes_.push_back({pass});
-            }
-        }
+        lay_out_films();
     }
 
     std::string backend() const override { return "cpu"; }
@@ -92,6 +84,13 @@ public:
         constants_.seed = seed;
     }
 
+    void reconfigure(const PackedScene& packed) override {
+        arena_.execute([&] { scene_->reconfigure(packed); });
+        packed_ = &packed;
+        constants_ = packed.constants;
+        lay_out_films();
+    }
+
     double device_seconds() const override { return seconds_; }
     std::vector<PassTime> pass_times() const override { return passes_; }
     void watch_reservoirs(ReservoirHook hook) override { hook_ = std::move(hook); }
@@ -109,6 +108,19 @@ public:
     }
 
 private:
+    /// Empty, as the packed scene's settings want them; times of passes count from 0.
+    void lay_out_films() {
+        film_.width = static_cast<int>(constants_.size.x);
+        film_.height = static_cast<int>(constants_.size.y);
+        clear_film();
+        reuse_ = ResamplingFilms(constants_);
+        schedule_ = ResamplingSchedule(constants_);
+        passes_.clear();
+        for (const std::string& pass : pass_names(constants_)) {
+            passes_.push_back({pass});
+        }
+    }
+
     template <class Body>
     void for_tiles(const Body& body) const {
         const tbb::blocked_range2d<int> tiles(0, (film_.height + tile_size - 1) / tile_size, 1, 0,

@@ -51,6 +51,17 @@ TEST_CASE("render refuses options out of range or at odds", "[app]") {
     refused({"--backend", "metal"}, {"--backend metal", "cpu, vulkan"});
     refused({"--camera", "Left"}, {"no camera 'Left'", "0 'camera'"});
     refused({"--camera", "7"}, {"no camera '7'", "0 'camera'"});
+    refused({"--eye", "1,2,3"}, {"--eye", "--look-at"});
+    refused({"--look-at", "1,2,3"}, {"--look-at", "--eye"});
+    refused({"--up", "0,0,1"}, {"--up", "--eye"});
+    refused({"--eye", "1,2,3", "--look-at", "1,2,3"}, {"--eye", "one point"});
+    refused({"--eye", "0,3,0", "--look-at", "0,0,0"}, {"--up", "parallel"});
+    refused({"--eye", "1,2", "--look-at", "0,0,0"}, {"--eye"});
+    refused({"--eye", "1,2,nan", "--look-at", "0,0,0"}, {"--eye", "finite"});
+    refused({"--fov", "180"}, {"--fov", "179"});
+    refused({"--view-height", "2"}, {"--view-height", "not orthographic"});
+    refused({"--sun", "0,91,1"}, {"--sun 0,91,1", "elevation"});
+    refused({"--sun", "0,45,-1"}, {"--sun 0,45,-1", "irradiance"});
     refused({"--time", "3"}, {"--time", "--spp"});
     refused({"--device", "0"}, {"--device", "--backend vulkan"});
     refused({"--validation"}, {"--validation", "--backend vulkan"});

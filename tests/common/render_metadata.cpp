@@ -23,6 +23,12 @@ RenderRequest request_of_everything() {
     request.environment_rotation = -30;
     request.lens_radius = 0.01;
     request.focus_distance = 2.5;
+    request.viewpoint.eye = glm::dvec3(1, -2.5, 3e-7);
+    request.viewpoint.look_at = glm::dvec3(0, 0.1, 0);
+    request.viewpoint.up = glm::dvec3(0, 0, 1);
+    request.viewpoint.fov = 33.5;
+    request.viewpoint.view_height = 4;
+    request.sun = Sun{-20, 35.5, 3};
     request.exposure = -1.5;
     request.settings.width = 640;
     request.settings.height = 480;
@@ -46,6 +52,7 @@ TEST_CASE("the repeating command holds every setting and survives a shell", "[re
          {"--backend vulkan", "--device 1", "--integrator direct", "--spp 77", "--size 640x480", "--max-depth 8",
           "--seed 4294967295", "--brdf blinn-phong", "--sampler hammersley", "--sample-count 256", "--mis balance",
           "--camera 'Front view'", "--env 0.1,0.2,0.3", "--env-scale 0.1", "--env-rotate -30", "--aperture 0.01",
+          "--eye 1,-2.5,3e-07", "--look-at 0,0.1,0", "--up 0,0,1", "--fov 33.5", "--view-height 4", "--sun -20,35.5,3",
           "--focus 2.5", "--exposure -1.5", "--tonemap none", "--no-layers", "--generic"}) {
         INFO(part);
         CHECK(contains(command, part));
@@ -68,6 +75,8 @@ TEST_CASE("metadata tell how the render went", "[render]") {
     CHECK(metadata.at("interrupted") == "yes");
     CHECK(metadata.at("uneven") == "no");
     CHECK(metadata.at("nonfinite") == "3");
+    CHECK(metadata.at("eye") == "1,-2.5,3e-07");
+    CHECK(metadata.at("sun") == "-20,35.5,3");
     CHECK(metadata.at("command") == repeat_command(request_of_everything(), 77));
 }
 

@@ -184,3 +184,101 @@ TEST_CASE("the moment of another scene is refused") {
     other.instances.clear();
     CHECK_THROWS_WITH(pack_moment(other, path_settings(), packed), Catch::Contains("instances: 0"));
 }
+
+namespace {
+
+/// The least scene under a map whose halves differ, beside a lamp, so that picking between lights matters.
+Scene mapped_scene() {
+    Scene scene = least_scene();
+    scene.environment.kind = EnvironmentKind::map;
+    scene.environment.width = 4;
+    scene.environment.height = 2;
+    for (int i = 0; i < 8; ++i) {
+        scene.environment.texels.emplace_back(0.3F * static_cast<float>(i % 4), 0.1F, 0.7F);
+    }
+    scene.lights.emplace_back();
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("an environment turns and dims as if it were packed anew") {
+    for (const EnvironmentKind kind : {EnvironmentKind::map, EnvironmentKind::constant}) {
+        Scene scene = mapped_scene();
+        scene.environment.kind = kind;
+        PackedScene packed = pack_scene(scene, path_settings());
+        const float lamp = packed.punctual_lights[0].pmf;
+        for (const float scale : {0.5F, 3.0F, 0.01F}) {
+            scene.environment.scale = glm::vec3(scale);
+            scene.environment.rotation += 1.25;
+            pack_moment(scene, path_settings(), packed);
+            check_same(packed, pack_scene(scene, path_settings()));
+            CHECK((packed.punctual_lights[0].pmf > lamp) == (scale < 1));
+        }
+    }
+}
+
+TEST_CASE("an environment of another tint, or one that was dark, is refused as a moment") {
+    Scene scene = mapped_scene();
+    scene.environment.scale = {1, 0.5F, 0.25F};
+    PackedScene packed = pack_scene(scene, path_settings());
+    scene.environment.scale *= 3.0F;
+    pack_moment(scene, path_settings(), packed);
+    scene.environment.scale = {1, 1, 0.25F};
+    CHECK_THROWS_WITH(pack_moment(scene, path_settings(), packed), Catch::Contains("tint"));
+    scene.environment.scale = {0, 0, 0};
+    CHECK_THROWS_WITH(pack_moment(scene, path_settings(), packed), Catch::Contains("tint"));
+}
+
+TEST_CASE("settings that no array depends on are taken over as if packed anew") {
+    Scene scene = mapped_scene();
+    RenderSettings settings = path_settings();
+    PackedScene packed = pack_scene(scene, settings);
+    settings.integrator = Integrator::restir;
+    settings.moves = true;
+    settings.width = 12;
+    settings.max_depth = 3;
+    settings.seed = 9;
+    settings.brdf = BrdfModel::blinn_phong;
+    settings.standard_error = true;
+    REQUIRE(repack_settings(scene, settings, packed));
+    check_same(packed, pack_scene(scene, settings));
+    CHECK(packed.keeps_previous);
+    CHECK(!packed.previous_instances.empty());
+    settings.integrator = Integrator::direct;
+    settings.moves = false;
+    scene.cameras[0].lens_radius = 0.5;
+    REQUIRE(repack_settings(scene, settings, packed));
+    check_same(packed, pack_scene(scene, settings));
+    CHECK(!packed.keeps_previous);
+}
+
+TEST_CASE("settings and scenes that other arrays go with want packing anew") {
+    Scene scene = mapped_scene();
+    RenderSettings settings = path_settings();
+    PackedScene packed = pack_scene(scene, settings);
+    const PackedScene before = packed;
+    settings.integrator = Integrator::brdf;  // which needs no tables of lights
+    CHECK(!repack_settings(scene, settings, packed));
+    settings.integrator = Integrator::path;
+    settings.generic = true;  // which has all texture coordinates
+    CHECK(!repack_settings(scene, settings, packed));
+    settings.generic = false;
+    scene.lights.emplace_back();
+    CHECK(!repack_settings(scene, settings, packed));
+    scene.lights.pop_back();
+    scene.environment.scale = {0, 0, 0};
+    CHECK(!repack_settings(scene, settings, packed));
+    check_same(packed, before);
+}
+
+TEST_CASE("settings are taken over at any moment, which is then its own past") {
+    Scene scene = generate_scene("moving-light").scene;
+    RenderSettings settings = path_settings();
+    PackedScene packed = pack_scene(scene, settings);
+    pose_scene(scene, 1.5);
+    settings.integrator = Integrator::restir;
+    settings.moves = true;
+    REQUIRE(repack_settings(scene, settings, packed));
+    check_same(packed, pack_scene(scene, settings));
+}

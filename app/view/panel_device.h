@@ -1,0 +1,20 @@
+// What a panel shows of a renderer on a device, where the program was built with one.
+#pragma once
+
+#include <memory>
+
+#include "render/renderer.h"
+
+namespace diptych {
+struct DeviceFilm;
+}
+
+namespace diptych::app {
+
+/// The renderer's film as it lies on its device; null where it lies on the host.
+std::shared_ptr<const DeviceFilm> device_film_of(const Renderer& renderer);
+
+/// Has the renderer cut its work so that none of its dispatches holds the display up for longer than so many seconds.
+void aim_dispatches(Renderer& renderer, double seconds);
+
+}  // namespace diptych::app

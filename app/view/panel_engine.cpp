@@ -1,0 +1,344 @@
+#include "view/panel_engine.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "error.h"
+#include "report.h"
+#include "scene/pose.h"
+#include "scene_setup.h"
+#include "view/film_figures.h"
+#include "view/panel_device.h"
+#include "view/view_request.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr double speed_share = 0.5;  // of the latest measurement in what is known
+
+double between(std::chrono::steady_clock::time_point begin, std::chrono::steady_clock::time_point end) {
+    return std::chrono::duration<double>(end - begin).count();
+}
+
+double blended(double known, double measured) {
+    return known > 0 ? (1 - speed_share) * known + speed_share * measured : measured;
+}
+
+}  // namespace
+
+namespace {
+
+void set_camera(const RenderedState& state, Scene& scene) {
+    scene.cameras.at(static_cast<std::size_t>(state.request.settings.camera)) = state.camera;
+}
+
+}  // namespace
+
+void put_scene(const Scene& loaded, const RenderedState& state, Scene& scene) {
+    if (moves(loaded)) {
+        pose_scene(scene, state.time);
+    }
+    place_lights(loaded, state.request, scene);
+    set_camera(state, scene);
+}
+
+RenderSettings panel_settings(const RenderSettings& settings, std::uint32_t seed_offset, int divisor) {
+    RenderSettings of_panel = settings;
+    of_panel.width = preview_side(settings.width, divisor);
+    of_panel.height = preview_side(settings.height, divisor);
+    of_panel.seed += seed_offset;
+    // A camera moves at any time, and a chain then looks back to where it was.
+    of_panel.moves = chains_frames(settings);
+    // Where frames go on from one another their spread says too little of the mean's error.
+    of_panel.standard_error = settings.standard_error && !chains_frames(settings);
+    return of_panel;
+}
+
+PanelEngine::PanelEngine(std::string backend, std::uint32_t seed_offset, RendererFactory factory, Publish publish)
+    : factory_(std::move(factory)), seed_offset_(seed_offset), publish_(std::move(publish)) {
+    shot_.backend = std::move(backend);
+}
+
+void PanelEngine::Pace::spent(Clock::time_point begin, Clock::time_point end) {
+    const double pause = std::max(interval - between(begin, end), between(begin, end) / share);
+    next = end + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(pause));
+}
+
+template <class Work>
+void PanelEngine::guarded(const Work& work) {
+    try {
+        work();
+    } catch (const std::exception& error) {
+        shot_.error = one_line(error.what());
+        shot_.device_lost = dynamic_cast<const DeviceLost*>(&error) != nullptr;
+        shot_.busy.clear();
+        applied_.reset();
+        publish_(std::make_shared<const PanelShot>(shot_));
+    }
+}
+
+void PanelEngine::recover(RendererFactory factory) {
+    renderer_.reset();
+    applied_.reset();
+    shot_.device_film.reset();
+    shot_.device_lost = false;
+    factory_ = std::move(factory);
+    if (job_) {
+        apply(ViewJob(*job_));
+    }
+}
+
+void PanelEngine::apply(const ViewJob& job) {
+    if (shot_.device_lost) {
+        job_ = job;
+        return;
+    }
+    guarded([&] {
+        const Clock::time_point begin = Clock::now();
+        Invalidation level = applied_ && renderer_ ? invalidation(*applied_, job.state) : Invalidation::scene;
+        const RenderSettings& wanted = job.state.request.settings;
+        if (level == Invalidation::scene) {
+            speed_ = {};
+        }
+        relearns_ = relearns_ || level == Invalidation::settings;
+        const FrameBudget budget =
+            frame_budget(speed_, wanted.width, wanted.height, job.frame_seconds, job.moving, divisor_);
+        if (budget.divisor != divisor_) {
+            level = std::max(level, Invalidation::settings);
+        }
+        if (spoiled_) {
+            level = std::max(level, Invalidation::picture);
+        }
+        job_ = job;
+        divisor_ = budget.divisor;
+        shot_.error.clear();
+        applied_.reset();  // until it is done
+        switch (level) {
+        case Invalidation::nothing:
+            break;
+        case Invalidation::picture:
+            renderer_->restart(settings().seed);
+            begin_picture(false);
+            break;
+        case Invalidation::view:
+            set_camera(job_->state, scene_);
+            show(false);
+            break;
+        case Invalidation::moment:
+            put_scene(*job_->scene, job_->state, scene_);
+            show(true);
+            break;
+        case Invalidation::settings:
+            change_settings();
+            break;
+        case Invalidation::scene:
+            open_scene();
+            break;
+        }
+        applied_ = job.state;
+        spoiled_ = false;
+        if (level == Invalidation::view || level == Invalidation::moment) {
+            speed_.overhead_seconds = blended(speed_.overhead_seconds, between(begin, Clock::now()));
+        }
+        aim_dispatches(*renderer_, job.frame_seconds / 2);
+        shot_.version = job.version;
+        shot_.state = job.state;
+        shot_.busy.clear();
+        if (level == Invalidation::nothing) {
+            shot_.figures.version = shot_.figures.version == 0 ? 0 : job.version;  // of the same picture
+            publish(false);
+        }
+    });
+}
+
+/// The scene at rest first, so that origin and radius depend on no moment.
+void PanelEngine::pack_anew(Scene& scene) {
+    const Scene& loaded = *job_->scene;
+    place_lights(loaded, job_->state.request, scene);
+    set_camera(job_->state, scene);
+    auto packed = std::make_unique<PackedScene>(pack_scene(scene, settings()));
+    if (renderer_) {
+        // Settings change neither, and a renderer may refer to those that it was made from.
+        packed->positions.swap(packed_->positions);
+        packed->triangles.swap(packed_->triangles);
+    }
+    if (moves(loaded)) {
+        put_scene(loaded, job_->state, scene);
+        pack_moment(scene, settings(), *packed);
+        pack_moment(scene, settings(), *packed);  // once more: the moment before is this one
+    }
+    if (renderer_) {
+        renderer_->reconfigure(*packed);
+    }
+    packed_ = std::move(packed);
+}
+
+void PanelEngine::open_scene() {
+    say_busy("packing the scene");
+    renderer_.reset();
+    packed_.reset();
+    shot_.device_film.reset();
+    scene_ = *job_->scene;
+    pack_anew(scene_);
+    say_busy("building acceleration structures and pipelines");
+    renderer_ = factory_(*packed_);
+    shot_.backend = renderer_->backend();
+    shot_.device = renderer_->device();
+    begin_picture(false);
+}
+
+void PanelEngine::change_settings() {
+    put_scene(*job_->scene, job_->state, scene_);
+    if (repack_settings(scene_, settings(), *packed_)) {
+        renderer_->reconfigure(*packed_);
+    } else {
+        say_busy("packing the scene");
+        if (moves(scene_)) {
+            scene_ = *job_->scene;
+        }
+        pack_anew(scene_);
+    }
+    begin_picture(false);
+}
+
+/// Moves the renderer to the scene's moment, and begins a picture of it.
+void PanelEngine::show(bool whole_moment) {
+    if (whole_moment) {
+        pack_moment(scene_, settings(), *packed_);
+    } else {
+        pack_view(scene_, settings(), *packed_);
+    }
+    renderer_->move_to(*packed_);
+    const bool chained = settings().moves;
+    if (chained) {
+        renderer_->clear_film();
+    } else {
+        renderer_->restart(settings().seed);
+    }
+    begin_picture(chained);
+    unsettled_ = chained;
+}
+
+void PanelEngine::begin_picture(bool keeps_chain) {
+    first_ = keeps_chain ? first_ + samples_ : 0;
+    samples_ = 0;
+    unsettled_ = false;
+    looked_rays_ = 0;
+    looked_at_ = Clock::now();
+    passes_before_ = renderer_->pass_times();
+    passes_from_ = 0;
+}
+
+void PanelEngine::advance(const std::atomic<bool>& cancel) {
+    guarded([&] {
+        const RenderSettings& wanted = job_->state.request.settings;
+        const FrameBudget budget =
+            frame_budget(speed_, wanted.width, wanted.height, job_->frame_seconds, job_->moving, divisor_);
+        const bool first = samples_ == 0;
+        const std::uint32_t count = first ? 1 : std::min(budget.samples, samples_left());
+        const Clock::time_point begin = Clock::now();
+        renderer_->render(first_ + samples_, count, cancel);
+        if (cancel) {
+            spoiled_ = true;
+            return;
+        }
+        samples_ += count;
+        learn(count, between(begin, Clock::now()));
+        if (std::exchange(unsettled_, false)) {
+            pack_view(scene_, settings(), *packed_);  // nothing has moved since
+            renderer_->move_to(*packed_);
+        }
+        publish(first);
+    });
+}
+
+void PanelEngine::learn(std::uint32_t samples, double seconds) {
+    const RenderSettings now = settings();
+    const double done = static_cast<double>(now.width) * now.height * samples;
+    const double known = std::exchange(relearns_, false) ? 0 : speed_.samples_per_second;
+    speed_.samples_per_second = blended(known, done / std::max(seconds, 1e-9));
+    shot_.frame_milliseconds = 1000 * seconds;
+}
+
+void PanelEngine::publish(bool first) {
+    const Clock::time_point now = Clock::now();
+    const RenderSettings of_film = settings();
+    shot_.device_film = device_film_of(*renderer_);
+    shot_.width = of_film.width;
+    shot_.height = of_film.height;
+    shot_.divisor = divisor_;
+    shot_.spp = samples_;
+    shot_.correlated = of_film.integrator == Integrator::restir;
+    shot_.samples_per_second = speed_.samples_per_second;
+    shot_.costs = renderer_->costs();
+    if (shot_.device_film ? device_looks_.due(now) : first || host_films_.due(now)) {
+        look();
+    }
+    publish_(std::make_shared<const PanelShot>(shot_));
+}
+
+void PanelEngine::look() {
+    const Clock::time_point begin = Clock::now();
+    shot_.film = std::make_shared<const Film>(renderer_->film());
+    host_films_.spent(begin, Clock::now());
+    if (shot_.device_film || looks_.due(begin)) {
+        shot_.figures = film_figures(*shot_.film, job_->version, samples_);
+        const double seconds = between(looked_at_, begin);
+        shot_.rays_per_second = static_cast<double>(shot_.figures.rays - looked_rays_) / std::max(seconds, 1e-9);
+        looked_rays_ = shot_.figures.rays;
+        looked_at_ = begin;
+        shot_.passes = renderer_->pass_times();
+        for (std::size_t i = 0; i < shot_.passes.size(); ++i) {
+            const double before = i < passes_before_.size() ? passes_before_[i].seconds : 0;
+            const double taken = std::exchange(shot_.passes[i].seconds, 0) - before;
+            shot_.passes[i].seconds = taken / std::max(samples_ - passes_from_, 1U);
+        }
+        passes_before_ = renderer_->pass_times();
+        passes_from_ = samples_;
+        looks_.spent(begin, Clock::now());
+    }
+    device_looks_.spent(begin, Clock::now());
+}
+
+void PanelEngine::say_busy(const char* what) {
+    shot_.busy = what;
+    publish_(std::make_shared<const PanelShot>(shot_));
+}
+
+RecordedPath PanelEngine::record_path(shared::PathQuery query, std::uint32_t seed) {
+    if (!renderer_ || !applied_) {
+        throw Error("no panel is there to replay on");
+    }
+    const RenderSettings of_film = settings();
+    if (resamples(of_film.integrator)) {
+        throw Error("replay takes every sample by itself, and this integrator's frames are resampled together");
+    }
+    const auto divisor = static_cast<std::uint32_t>(divisor_);
+    query.pixel = {std::min(query.pixel.x / divisor, static_cast<std::uint32_t>(of_film.width - 1)),
+                   std::min(query.pixel.y / divisor, static_cast<std::uint32_t>(of_film.height - 1))};
+    return renderer_->record_paths({&query, 1}, seed).front();
+}
+
+KeptFilm PanelEngine::film() {
+    if (!renderer_ || !applied_ || samples_ == 0) {
+        throw Error("there is no picture yet");
+    }
+    KeptFilm kept;
+    kept.film = renderer_->film();
+    kept.request = view_request(job_->state, *job_->scene);
+    kept.request.backend = shot_.backend;
+    kept.request.settings = settings();
+    kept.request.settings.moves = false;  // what a renderer is told, not what is asked for
+    const FilmTotals totals = film_totals(kept.film);
+    kept.outcome.program = program_version();
+    kept.outcome.device = shot_.device;
+    kept.outcome.spp = samples_;
+    kept.outcome.uneven = spoiled_;
+    kept.outcome.seconds = static_cast<double>(totals.samples) / std::max(speed_.samples_per_second, 1e-9);
+    kept.outcome.rays = totals.rays;
+    kept.outcome.nonfinite = totals.nonfinite;
+    return kept;
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,151 @@
+#include "view/panel_worker.h"
+
+#include <utility>
+
+#include "error.h"
+#include "view/panel_engine.h"
+
+namespace diptych::app {
+
+PanelWorker::PanelWorker(std::string backend, RendererFactory factory, std::uint32_t seed_offset)
+    : backend_(std::move(backend)), seed_offset_(seed_offset),
+      thread_([this, made = std::move(factory)]() mutable { run(std::move(made)); }) {}
+
+PanelWorker::~PanelWorker() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+        cancel_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+}
+
+void PanelWorker::post(ViewJob job) {
+    {
+        const std::lock_guard lock(mutex_);
+        // A job of the same picture lets what is being added to it come to its end.
+        const bool other = !taken_ || invalidation(*taken_, job.state) != Invalidation::nothing;
+        waiting_ = std::move(job);
+        cancel_ = cancel_ || (other && may_cancel_);
+    }
+    wake_.notify_one();
+}
+
+std::shared_ptr<const PanelShot> PanelWorker::shot() const {
+    const std::lock_guard lock(mutex_);
+    return shot_;
+}
+
+void PanelWorker::on_shot(std::function<void()> hook) {
+    const std::lock_guard lock(mutex_);
+    hook_ = std::move(hook);
+}
+
+void PanelWorker::request(std::function<void(PanelEngine*)> task) {
+    {
+        const std::lock_guard lock(mutex_);
+        requests_.push_back(std::move(task));
+    }
+    wake_.notify_one();
+}
+
+namespace {
+
+/// A task for the engine, and the future of what it gives.
+template <class Result, class Ask>
+std::pair<std::function<void(PanelEngine*)>, std::future<Result>> answered(const Ask& ask) {
+    const auto promise = std::make_shared<std::promise<Result>>();
+    const auto task = [promise, ask](PanelEngine* engine) {
+        try {
+            if (engine == nullptr) {
+                throw Error("the panel has been closed");
+            }
+            promise->set_value(ask(*engine));
+        } catch (...) {
+            promise->set_exception(std::current_exception());
+        }
+    };
+    return {task, promise->get_future()};
+}
+
+}  // namespace
+
+std::future<RecordedPath> PanelWorker::record_path(const shared::PathQuery& query, std::uint32_t seed) {
+    auto [task, future] =
+        answered<RecordedPath>([query, seed](PanelEngine& engine) { return engine.record_path(query, seed); });
+    request(std::move(task));
+    return std::move(future);
+}
+
+std::future<KeptFilm> PanelWorker::film() {
+    auto [task, future] = answered<KeptFilm>([](PanelEngine& engine) { return engine.film(); });
+    request(std::move(task));
+    return std::move(future);
+}
+
+void PanelWorker::recover(RendererFactory factory) {
+    {
+        const std::lock_guard lock(mutex_);
+        factory_ = std::move(factory);
+    }
+    wake_.notify_one();
+}
+
+void PanelWorker::run(RendererFactory factory) {
+    PanelEngine engine(backend_, seed_offset_, std::move(factory), [this](std::shared_ptr<const PanelShot> shot) {
+        std::function<void()> hook;
+        {
+            const std::lock_guard lock(mutex_);
+            shot_ = std::move(shot);
+            hook = hook_;
+        }
+        if (hook) {
+            hook();
+        }
+    });
+    std::unique_lock lock(mutex_);
+    while (true) {
+        wake_.wait(lock, [&] {
+            return stop_ || waiting_ || factory_ || !requests_.empty() || engine.wants_samples();
+        });
+        auto requests = std::exchange(requests_, {});
+        if (stop_) {
+            lock.unlock();
+            for (const auto& task : requests) {
+                task(nullptr);
+            }
+            return;
+        }
+        auto made = std::exchange(factory_, {});
+        auto job = std::exchange(waiting_, {});
+        if (job) {
+            taken_ = job->state;
+            cancel_ = false;
+        }
+        may_cancel_ = false;  // nothing is being rendered
+        lock.unlock();
+        if (made) {
+            engine.recover(std::move(*made));
+        }
+        if (job) {
+            engine.apply(*job);
+        }
+        for (const auto& task : requests) {
+            task(&engine);
+        }
+        lock.lock();
+        if (!engine.wants_samples() || stop_) {
+            continue;
+        }
+        if (waiting_ && !engine.owes_first_sample()) {
+            continue;  // no sample that nobody will see
+        }
+        may_cancel_ = !engine.owes_first_sample();
+        lock.unlock();
+        engine.advance(cancel_);
+        lock.lock();
+    }
+}
+
+}  // namespace diptych::app

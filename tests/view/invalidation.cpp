@@ -1,0 +1,98 @@
+// What a change asks for, and no more.
+#include "view/invalidation.h"
+
+#include <functional>
+
+#include "catch.h"
+
+using namespace diptych;
+using namespace diptych::app;
+
+namespace {
+
+Invalidation after(const std::function<void(RenderedState&)>& change, RenderedState before = {}) {
+    RenderedState state = before;
+    change(state);
+    CHECK(invalidation(state, state) == Invalidation::nothing);
+    CHECK(invalidation(state, before) == invalidation(before, state));
+    return invalidation(before, state);
+}
+
+}  // namespace
+
+TEST_CASE("Files and the way of showing invalidate nothing", "[view]") {
+    CHECK(after([](RenderedState& s) { s.request.output = "other.exr"; }) == Invalidation::nothing);
+    CHECK(after([](RenderedState& s) { s.request.exposure = 3; }) == Invalidation::nothing);
+    CHECK(after([](RenderedState& s) { s.request.tonemap = "aces"; }) == Invalidation::nothing);
+    CHECK(after([](RenderedState& s) { s.request.spp = 1; }) == Invalidation::nothing);
+}
+
+TEST_CASE("A seed invalidates the picture", "[view]") {
+    CHECK(after([](RenderedState& s) { s.request.settings.seed = 9; }) == Invalidation::picture);
+}
+
+TEST_CASE("The camera invalidates the view", "[view]") {
+    RenderedState before;
+    before.camera.lens_radius = 0.1;
+    CHECK(after([](RenderedState& s) { s.camera.camera_to_world[3].x += 1; }, before) == Invalidation::view);
+    CHECK(after([](RenderedState& s) { s.camera.vertical_fov = 1; }, before) == Invalidation::view);
+    CHECK(after([](RenderedState& s) { s.camera.orthographic_height = 7; }, before) == Invalidation::view);
+    CHECK(after([](RenderedState& s) { s.camera.lens_radius = 0.2; }, before) == Invalidation::view);
+    CHECK(after([](RenderedState& s) { s.camera.focus_distance = 9; }, before) == Invalidation::view);
+}
+
+TEST_CASE("What moves invalidates the moment", "[view]") {
+    RenderedState before;
+    before.request.sun = Sun{};
+    CHECK(after([](RenderedState& s) { s.time = 1; }, before) == Invalidation::moment);
+    CHECK(after([](RenderedState& s) { s.request.sun->azimuth = 9; }, before) == Invalidation::moment);
+    CHECK(after([](RenderedState& s) { s.request.environment_rotation = 9; }, before) == Invalidation::moment);
+    CHECK(after([](RenderedState& s) { s.request.environment_scale = 9; }, before) == Invalidation::moment);
+    const auto all = [](RenderedState& s) {
+        s.request.settings.seed = 9;
+        s.camera.vertical_fov = 1;
+        s.time = 1;
+    };
+    CHECK(after(all, before) == Invalidation::moment);
+}
+
+TEST_CASE("What is packed or compiled otherwise invalidates the settings", "[view]") {
+    using Change = std::function<void(RenderSettings&)>;
+    const Change changes[] = {[](RenderSettings& s) { s.width = 9; },
+                              [](RenderSettings& s) { s.height = 9; },
+                              [](RenderSettings& s) { s.integrator = Integrator::restir; },
+                              [](RenderSettings& s) { s.brdf = BrdfModel::blinn_phong; },
+                              [](RenderSettings& s) { s.sampler = SamplerKind::independent; },
+                              [](RenderSettings& s) { s.mis = MisHeuristic::balance; },
+                              [](RenderSettings& s) { s.max_depth = 9; },
+                              [](RenderSettings& s) { s.camera = 1; },
+                              [](RenderSettings& s) { s.standard_error = true; },
+                              [](RenderSettings& s) { s.first_hit_layers = true; },
+                              [](RenderSettings& s) { s.generic = true; },
+                              [](RenderSettings& s) { s.resampling.light_candidates = 9; },
+                              [](RenderSettings& s) { s.resampling.bsdf_candidate = false; },
+                              [](RenderSettings& s) { s.resampling.temporal = false; },
+                              [](RenderSettings& s) { s.resampling.spatial_passes = 2; },
+                              [](RenderSettings& s) { s.resampling.neighbors = 2; },
+                              [](RenderSettings& s) { s.resampling.radius = 2; },
+                              [](RenderSettings& s) { s.resampling.confidence_cap = 2; },
+                              [](RenderSettings& s) { s.resampling.mis = ResamplingMis::balance; },
+                              [](RenderSettings& s) { s.resampling.visibility = ResamplingVisibility::target; }};
+    for (const Change& change : changes) {
+        CHECK(after([&](RenderedState& s) { change(s.request.settings); }) == Invalidation::settings);
+    }
+    CHECK(after([](RenderedState& s) { s.camera.lens_radius = 0.1; }) == Invalidation::settings);
+    CHECK(after([](RenderedState& s) { s.camera.orthographic = true; }) == Invalidation::settings);
+    CHECK(after([](RenderedState& s) { s.request.sun = Sun{}; }) == Invalidation::settings);
+    CHECK(after([](RenderedState& s) { s.request.environment_scale = 0; }) == Invalidation::settings);
+}
+
+TEST_CASE("Another scene invalidates everything", "[view]") {
+    const auto all = [](RenderedState& s) {
+        s.scene = 2;
+        s.request.settings.seed = 9;
+        s.time = 1;
+        s.request.settings.max_depth = 1;
+    };
+    CHECK(after(all) == Invalidation::scene);
+}

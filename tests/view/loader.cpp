@@ -1,0 +1,132 @@
+// Scenes that load beside the one that is shown, and again when their files change.
+#include "view/loader.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "scene/generate.h"
+#include "scene/gltf_files.h"
+#include "scene/gltf_write.h"
+#include "view_fixture.h"
+
+using namespace diptych;
+using namespace diptych::app;
+using namespace diptych::tests;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own, gone with the test.
+struct Folder {
+    fs::path path = fs::temp_directory_path() / ("diptych_loader_" + std::to_string(::getpid()));
+    Folder() { fs::create_directories(path); }
+    ~Folder() { fs::remove_all(path); }
+};
+
+template <class Value>
+Value await(const std::function<std::optional<Value>()>& look) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (std::chrono::steady_clock::now() < end) {
+        if (std::optional<Value> found = look()) {
+            return *std::move(found);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    FAIL("nothing came");
+    throw Error("unreachable");
+}
+
+LoadedScene await_scene(SceneLoader& loader) {
+    return await<LoadedScene>([&] { return loader.take_scene(); });
+}
+
+std::string await_error(SceneLoader& loader) {
+    return await<std::string>([&] { return loader.take_error(); });
+}
+
+RenderRequest request_of(const fs::path& file) {
+    RenderRequest request;
+    request.scene = file.string();
+    return request;
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+    std::ofstream(file) << text;
+}
+
+/// A later time than any write before it had, whatever the file system's clock.
+void touch(const fs::path& file) {
+    fs::last_write_time(file, fs::last_write_time(file) + std::chrono::seconds(2));
+}
+
+}  // namespace
+
+TEST_CASE("A glTF's files are itself, its buffers and its images", "[view]") {
+    const Folder folder;
+    const fs::path file = folder.path / "a.gltf";
+    write_text(file, R"({"buffers":[{"uri":"a%20b.bin"},{"uri":"data:;base64,AA=="},{"byteLength":4}],
+                         "images":[{"uri":"x.png"},{"bufferView":0},{"uri":"x.png"},{"uri":"http://there/y.png"},7]})");
+    CHECK(gltf_files(file) == std::vector<fs::path>{file, folder.path / "a b.bin", folder.path / "x.png"});
+    write_text(file, "{\"buffers\": [");
+    CHECK(gltf_files(file) == std::vector<fs::path>{file});
+    CHECK(gltf_files(folder.path / "none.gltf") == std::vector<fs::path>{folder.path / "none.gltf"});
+}
+
+TEST_CASE("A scene that does not load says why and leaves the loader at work", "[view]") {
+    const Folder folder;
+    write_gltf(generate_scene("cornell").scene, folder.path / "good.gltf");
+    write_text(folder.path / "bad.gltf", "{");
+    SceneLoader loader;
+    loader.open(request_of(folder.path / "bad.gltf"));
+    CHECK(await_error(loader).find("bad.gltf") != std::string::npos);
+    CHECK(!loader.take_scene());
+    loader.open(request_of(folder.path / "good.gltf"));
+    const LoadedScene loaded = await_scene(loader);
+    CHECK(!loaded.reloaded);
+    CHECK(loaded.generation > 1);
+    CHECK(!loaded.scene->cameras.empty());
+    CHECK(!is_empty(loaded.bounds));
+    CHECK(!loader.take_error());
+    CHECK(loader.loading().empty());
+}
+
+TEST_CASE("A scene is loaded again once its files have changed and hold still", "[view]") {
+    const Folder folder;
+    const fs::path file = folder.path / "scene.gltf";
+    write_gltf(generate_scene("cornell").scene, file);
+    const LoadedScene first = load_scene(request_of(file), 1);
+    REQUIRE(first.files.size() >= 1);
+    SceneLoader loader;
+    loader.watch(first);
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    CHECK(!loader.take_scene());
+    touch(first.files.back());
+    const LoadedScene second = await_scene(loader);
+    CHECK(second.reloaded);
+    CHECK(second.generation > first.generation);
+    loader.watch(second);
+    // A burst of writes is one change.
+    int loads = 0;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+    for (int i = 0; std::chrono::steady_clock::now() < end; ++i) {
+        if (i < 8) {
+            touch(file);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(i < 8 ? 50 : 100));
+        if (const std::optional<LoadedScene> again = loader.take_scene()) {
+            loader.watch(*again);
+            ++loads;
+        }
+    }
+    CHECK(loads >= 1);
+    CHECK(loads <= 2);
+    // Half a file is an error, told once.
+    write_text(file, "{");
+    touch(file);
+    CHECK(await_error(loader).find("scene.gltf") != std::string::npos);
+    std::this_thread::sleep_for(std::chrono::milliseconds(800));
+    CHECK(!loader.take_error());
+}
