@@ -34,9 +34,10 @@ void draw_divider(const Theme& theme, ViewState& state, InterfaceState& interfac
 
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const float width = theme.scale * (hot ? 2.0F : 1.0F);
-    draw.AddRectFilled({x - width, 0}, {x + width, size.y}, packed({0, 0, 0, 0.5F}));
-    draw.AddRectFilled({x - width / 2, 0}, {x + width / 2, size.y}, packed({1, 1, 1, 0.9F}));
     const Box middle = layout_of(theme, interface, size).middle;
+    const float top = interface.visible ? middle.at.y - theme.units(2) : 0;
+    draw.AddRectFilled({x - width, top}, {x + width, size.y}, packed({0, 0, 0, 0.5F}));
+    draw.AddRectFilled({x - width / 2, top}, {x + width / 2, size.y}, packed({1, 1, 1, 0.9F}));
     const float y = std::round(middle.at.y + middle.size.y - theme.units(state.animation.duration > 0 ? 24 : 12));
     const auto tag = [&](const char* text, const ImVec4& color, bool left) {
         const ImVec2 room = ImGui::CalcTextSize(text);
