@@ -162,7 +162,7 @@ void FrameLoop::post(double now) {
     }
     in_burst_ = in_burst_ && now - last_single_ < burst_seconds;
     const bool moving = held || in_burst_;
-    const Posting next{moving, state_.paused, state_.shown.panel, state_.frames_per_second};
+    const Posting next{moving, state_.paused, state_.keeps_hidden, state_.shown.panel, state_.frames_per_second};
     if (!changed && next == posting_) {
         return;
     }
@@ -180,7 +180,7 @@ void FrameLoop::post(double now) {
 
 void FrameLoop::post_to(Panel panel, bool rests) {
     bool& resting = resting_[place(panel)];
-    if (rests && resting) {
+    if (rests && resting && !state_.keeps_hidden) {
         return;
     }
     resting = rests;

@@ -68,6 +68,7 @@ private:
     struct Posting {
         bool moving = false;
         bool paused = false;
+        bool keeps_hidden = false;
         ShownPanel shown = ShownPanel::cpu;
         double frames_per_second = 0;
 

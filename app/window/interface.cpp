@@ -9,6 +9,9 @@ namespace diptych::app {
 
 void draw_interface(const Theme& theme, const InterfaceFacts& facts, ViewState& state, InterfaceState& interface,
                     const PixelReplay& replay) {
+    if (!is_wide(theme, ImGui::GetIO().DisplaySize) && interface.settings && (interface.figures || interface.replay)) {
+        interface.settings = false;
+    }
     if (state.shown.panel == ShownPanel::split) {
         draw_divider(theme, state, interface);
     }

@@ -101,8 +101,8 @@ void draw_top_bar(const Theme& theme, const InterfaceFacts& facts, ViewState& st
     const Box box = layout_of(theme, interface, ImGui::GetIO().DisplaySize).bar;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.units(2.5F), theme.units(2.5F)});
     begin_panel("bar", box);
-    const bool narrow = box.size.x < theme.units(210);
-    choose_panel(theme, facts, state.shown, narrow, interface.places);
+    const bool wide = is_wide(theme, ImGui::GetIO().DisplaySize);
+    choose_panel(theme, facts, state.shown, !wide, interface.places);
     ImGui::SameLine();
     drop_down("layer", layer_names, state.shown.layer, theme.units(34), "Which layer of the picture  (L)", interface.places);
     ImGui::SameLine();
@@ -115,18 +115,22 @@ void draw_top_bar(const Theme& theme, const InterfaceFacts& facts, ViewState& st
     }
     if (button("Figures", "Show or hide the figures at the right")) {
         interface.figures = !interface.figures;
+        interface.settings = interface.settings && (wide || !interface.figures);
     }
     if (button("Settings", "Show or hide the settings at the left")) {
         interface.settings = !interface.settings;
+        if (!wide && interface.settings) {
+            interface.figures = interface.replay = false;
+        }
     }
-    if (button("Copy command", "Copy the command line that renders this picture  (Ctrl+C)")) {
-        interface.wishes.copy_command = true;
+    if (button("Save PNG", "The picture as it is seen, without the interface  (Ctrl+S)")) {
+        interface.wishes.screenshot = true;
     }
     if (button("Save EXR", "Radiance and layers as a file  (Ctrl+Shift+S)")) {
         interface.wishes.save_exr = true;
     }
-    if (button("Save PNG", "The picture as it is seen, without the interface  (Ctrl+S)")) {
-        interface.wishes.screenshot = true;
+    if (button("Copy command", "Copy the command line that renders this picture  (Ctrl+C)")) {
+        interface.wishes.copy_command = true;
     }
     ImGui::End();
     ImGui::PopStyleVar();

@@ -30,9 +30,6 @@ struct Figure {
 };
 
 std::string relmse_text(const Shot& shot) {
-    if (shot.correlated) {
-        return "chain";
-    }
     return shot.figures.relmse ? fmt::format("{:.2e}", *shot.figures.relmse) : "–";
 }
 

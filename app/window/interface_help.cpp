@@ -30,6 +30,14 @@ void line(const char* keys, const char* text) {
 
 void draw_help(const Theme& theme, InterfaceState& interface) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize(size);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, {0, 0, 0, 0.55F});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+    ImGui::Begin("behind help", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
+    ImGui::End();
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor();
     const float width = std::min(theme.units(196), size.x - theme.units(4));
     ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, 0, {0.5F, 0.5F});
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, size.y - theme.units(4)});

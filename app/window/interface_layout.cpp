@@ -4,14 +4,17 @@
 
 namespace diptych::app {
 
+bool is_wide(const Theme& theme, ImVec2 size) {
+    return size.x >= theme.units(220);
+}
+
 Layout layout_of(const Theme& theme, const InterfaceState& interface, ImVec2 size) {
     const float gap = theme.units(2);
     const float top = theme.bar + 2 * gap;
     const float height = std::max(size.y - top - gap, theme.units(10));
     Layout layout;
     layout.bar = {{gap, gap}, {size.x - 2 * gap, theme.bar}};
-    // Two panels leave the middle at least a sixth of the window.
-    const float panel = std::min(theme.panel, (size.x * 5 / 6 - 4 * gap) / 2);
+    const float panel = std::min(theme.panel, size.x - 4 * gap);
     layout.settings = {{gap, top}, {panel, height}};
     layout.figures = {{size.x - gap - panel, top}, {panel, height}};
     const float wide = std::min(2 * theme.panel, size.x - 3 * gap - (interface.settings ? panel : 0));

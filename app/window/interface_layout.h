@@ -19,6 +19,9 @@ struct Layout {
     Box middle;    // what is left between them, below the bar
 };
 
+/// Whether there is room for panels on both sides.
+bool is_wide(const Theme& theme, ImVec2 size);
+
 Layout layout_of(const Theme& theme, const InterfaceState& interface, ImVec2 size);
 
 /// A panel that stands where it is told to: its height follows its content up to the box's. End it with ImGui::End.

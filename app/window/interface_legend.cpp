@@ -26,8 +26,8 @@ std::string number_text(double value, const std::string& unit) {
 void draw_legend(const Theme& theme, const Legend& legend, const ViewState& state, const InterfaceState& interface) {
     const Box middle = layout_of(theme, interface, ImGui::GetIO().DisplaySize).middle;
     const float above = state.animation.duration > 0 && interface.visible ? theme.bar + theme.units(2) : 0;
-    const ImVec2 size{std::min(theme.units(64), middle.size.x), theme.units(3)};
     const float pad = theme.units(2);
+    const ImVec2 size{std::min(theme.units(64), middle.size.x - 4 * pad), theme.units(3)};
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 at{std::round(middle.at.x + (middle.size.x - size.x) / 2), std::round(middle.at.y + middle.size.y - above - size.y - line - 2 * pad)};
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();

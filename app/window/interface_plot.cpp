@@ -107,7 +107,9 @@ void draw_error_plot(const Theme& theme, const InterfaceFacts& facts) {
     ImGui::Dummy({width, size.y + below + theme.units(2)});
     explain("Over samples a pixel, from the spread of each pixel's samples. Frames of restir that go on from one another tell none.");
     if (axes.empty) {
-        const char* text = "none known yet";
+        const bool chained = std::any_of(facts.panels.begin(), facts.panels.end(),
+                                         [](const PanelFacts& panel) { return panel.shown && panel.shot != nullptr && panel.shot->correlated; });
+        const char* text = chained ? "not known of restir's chains" : "not known yet";
         const ImVec2 room = ImGui::CalcTextSize(text);
         ImGui::GetWindowDrawList()->AddText({corner.x + (width - room.x) / 2, corner.y + size.y / 2}, packed(colors::muted), text);
         return;

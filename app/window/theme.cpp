@@ -80,9 +80,10 @@ Theme apply_theme(float scale, float ratio) {
     style.CellPadding = {theme.units(1), theme.units(0.5F)};
     style.IndentSpacing = theme.units(3);
     style.ScrollbarSize = theme.units(2);
-    style.GrabMinSize = theme.units(2);
+    style.GrabMinSize = theme.units(1);
     style.WindowRounding = theme.units(2);
-    style.ChildRounding = style.FrameRounding = style.PopupRounding = style.GrabRounding = theme.units(1);
+    style.ChildRounding = style.FrameRounding = style.PopupRounding = theme.units(1);
+    style.GrabRounding = theme.units(0.5F);
     style.ScrollbarRounding = theme.units(1);
     style.WindowBorderSize = style.PopupBorderSize = scale;
     style.FrameBorderSize = 0;

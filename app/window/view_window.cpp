@@ -15,6 +15,7 @@
 #include "backend/cpu_renderer.h"
 #include "command.h"
 #include "error.h"
+#include "interrupt.h"
 #include "image/image_file.h"
 #include "render_picture.h"
 #include "validation.h"
@@ -73,7 +74,8 @@ class ViewWindow {
 public:
     ViewWindow(const WindowOptions& options, LoadedScene scene);
 
-    void run();
+    /// Until the window is closed, or an interrupt comes; true where that was it.
+    bool run();
 
 private:
     void begin_loop(LoadedScene scene);
@@ -111,6 +113,7 @@ private:
     CameraHand hand_;
     InterfaceState interface_;
     PixelReplay replay_;
+    std::optional<shared::PathQuery> asked_;  // to be replayed
     Legend legend_;
     WindowInput input_;
     std::atomic<bool> news_ = true;  // a panel has something new
@@ -288,7 +291,7 @@ void ViewWindow::grant_wishes() {
         save_radiance();
     }
     if (wishes.replay_sample) {
-        replay_.ask(*loop_, {replay_.query().pixel, *wishes.replay_sample});
+        asked_ = {replay_.query().pixel, *wishes.replay_sample};
     }
     if (wishes.quit) {
         glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE);
@@ -344,7 +347,7 @@ void ViewWindow::move_camera(double seconds) {
         const glm::dvec2 point = click->at / glm::dvec2(input_.width, input_.height);
         const glm::uvec2 pixel{std::clamp(point.x * settings.width, 0.0, settings.width - 1.0), std::clamp(point.y * settings.height, 0.0, settings.height - 1.0)};
         interface_.replay = true;
-        replay_.ask(*loop_, {pixel, 0});
+        asked_ = {pixel, 0};
         log_.write("replay", {{"pixel", {pixel.x, pixel.y}}});
     }
 }
@@ -422,7 +425,8 @@ void ViewWindow::recover() {
     log_.write("recovered", {{"device", gpu_->name}});
 }
 
-void ViewWindow::run() {
+bool ViewWindow::run() {
+    const InterruptGuard interrupt;
     last_frame_ = seconds_now();
     while (true) {
         // A frame is due no sooner than the frame rate allows, and not before something happens.
@@ -435,7 +439,7 @@ void ViewWindow::run() {
         const double passed = now - last_frame_;
         frame_seconds_ += (passed - frame_seconds_) * std::min(1.0, passed / 0.5);
         last_frame_ = now;
-        if (input_.closed) {
+        if (input_.closed || interrupt.requested()) {
             break;
         }
         if (replay_.update()) {
@@ -455,7 +459,11 @@ void ViewWindow::run() {
             ImGui::Render();
         }
         state().interacting = hand_.moving() || settings_held_;
+        state().keeps_hidden = interface_.replay;
         loop_->step(now);
+        if (asked_) {  // once both panels have been told of the picture
+            replay_.ask(*loop_, *std::exchange(asked_, {}));
+        }
         for (const std::string& error : loop_->take_errors()) {
             report(error);
         }
@@ -474,13 +482,13 @@ void ViewWindow::run() {
         log_.follow(facts(), state(), interface_, now);
     }
     log_.write("quit");
+    return interrupt.requested();
 }
 
 }  // namespace
 
 int show_window(const WindowOptions& options, LoadedScene scene) {
-    ViewWindow(options, std::move(scene)).run();
-    return exit_done;
+    return ViewWindow(options, std::move(scene)).run() ? exit_interrupted : exit_done;
 }
 
 }  // namespace diptych::app
