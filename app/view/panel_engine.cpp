@@ -142,11 +142,14 @@ void PanelEngine::apply(const ViewJob& job) {
             speed_.overhead_seconds = blended(speed_.overhead_seconds, between(begin, Clock::now()));
         }
         aim_dispatches(*renderer_, job.frame_seconds / 2);
+        const bool knows_picture = level == Invalidation::nothing && shot_.figures.version == shot_.version;
         shot_.version = job.version;
         shot_.state = job.state;
         shot_.busy.clear();
-        if (level == Invalidation::nothing) {
-            shot_.figures.version = shot_.figures.version == 0 ? 0 : job.version;  // of the same picture
+        if (knows_picture) {
+            shot_.figures.version = job.version;
+        }
+        if (level == Invalidation::nothing && samples_ > 0) {
             publish(false);
         }
     });
