@@ -15,6 +15,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba8) uniform writeonly image2D picture;
 layout(push_constant, scalar) uniform Push { Display display; };
 
+layout(set = 0, binding = 1, scalar) buffer Histogram { uint histogram[]; };
+shared uint bins[HISTOGRAM_BINS];
+
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pixels { FilmPixel data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Moments { FilmMoments data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FirstHits { FilmFirstHit data[]; };
@@ -81,7 +84,15 @@ Value value_of(DisplayFilm film, uvec2 picture_pixel) {
     return value;
 }
 
+void count(float x) {
+    if (abs(x) > 0.0f && is_finite(x)) {
+        uint bin = floatBitsToUint(abs(x)) >> 21;
+        atomicAdd(bins[clamp(bin, HISTOGRAM_FIRST, HISTOGRAM_FIRST + HISTOGRAM_BINS - 1u) - HISTOGRAM_FIRST], 1u);
+    }
+}
+
 vec3 scalar_color(float x) {
+    count(x);
     if (!is_finite(x)) {
         return nonfinite_color();
     }
@@ -113,14 +124,11 @@ vec3 difference_color(vec3 left, vec3 right) {
         return floatBitsToUint(left.x) == floatBitsToUint(right.x) ? vec3(0.0f) : vec3(1.0f);
     }
     float difference = is_colored(display.layer) ? luminance(left - right) : left.x - right.x;
+    count(difference);
     return is_finite(difference) ? signed_color(difference / display.high) : nonfinite_color();
 }
 
-void main() {
-    uvec2 pixel = gl_GlobalInvocationID.xy;
-    if (pixel.x >= display.size.x || pixel.y >= display.size.y) {
-        return;
-    }
+void show(uvec2 pixel) {
     bool difference = (display.flags & DISPLAY_DIFFERENCE) != 0u;
     bool on_right = !difference && pixel.x >= display.divider;
     Value shown;
@@ -139,4 +147,21 @@ void main() {
         color = color_of(shown.v);
     }
     imageStore(picture, ivec2(pixel), vec4(color, 1.0f));
+}
+
+void main() {
+    for (uint bin = gl_LocalInvocationIndex; bin < HISTOGRAM_BINS; bin += gl_WorkGroupSize.x * gl_WorkGroupSize.y) {
+        bins[bin] = 0u;
+    }
+    barrier();
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (pixel.x < display.size.x && pixel.y < display.size.y) {
+        show(pixel);
+    }
+    barrier();
+    for (uint bin = gl_LocalInvocationIndex; bin < HISTOGRAM_BINS; bin += gl_WorkGroupSize.x * gl_WorkGroupSize.y) {
+        if (bins[bin] > 0u) {
+            atomicAdd(histogram[bin], bins[bin]);
+        }
+    }
 }

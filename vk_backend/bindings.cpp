@@ -25,22 +25,22 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
     const std::array<vk::DescriptorPoolSize, 2> sizes = {
         {{.type = Type::eAccelerationStructureKHR, .descriptorCount = 2},
          {.type = Type::eUniformBuffer, .descriptorCount = 2}}};
-    vk::DescriptorPoolCreateInfo pool{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, .maxSets = 1};
+    vk::DescriptorPoolCreateInfo pool{.maxSets = 1};
     pool.setPoolSizes(sizes);
     made.pool = gpu.device.createDescriptorPool(pool);
     vk::DescriptorSetAllocateInfo allocate{.descriptorPool = *made.pool};
     allocate.setSetLayouts(*layout.set);
-    made.set = std::move(gpu.device.allocateDescriptorSets(allocate).front());
+    made.set = gpu.device.allocateDescriptorSets(allocate).front().release();
 
     const vk::DescriptorBufferInfo addresses_info{.buffer = *made.addresses.handle, .range = VK_WHOLE_SIZE};
     const vk::DescriptorBufferInfo constants_info{.buffer = *made.constants.handle, .range = VK_WHOLE_SIZE};
     const std::array<vk::WriteDescriptorSet, 2> writes = {{
-        {.dstSet = *made.set,
+        {.dstSet = made.set,
          .dstBinding = 1,
          .descriptorCount = 1,
          .descriptorType = Type::eUniformBuffer,
          .pBufferInfo = &addresses_info},
-        {.dstSet = *made.set,
+        {.dstSet = made.set,
          .dstBinding = 2,
          .descriptorCount = 1,
          .descriptorType = Type::eUniformBuffer,
@@ -57,7 +57,7 @@ void replace_structures(const Gpu& gpu, const Bindings& bindings, vk::Accelerati
         vk::WriteDescriptorSetAccelerationStructureKHR handles;
         handles.setAccelerationStructures(handle);
         const vk::WriteDescriptorSet write{.pNext = &handles,
-                                           .dstSet = *bindings.set,
+                                           .dstSet = bindings.set,
                                            .dstBinding = binding,
                                            .descriptorCount = 1,
                                            .descriptorType = vk::DescriptorType::eAccelerationStructureKHR};

@@ -12,7 +12,7 @@ struct Bindings {
     Buffer addresses;
     Buffer constants;
     vk::raii::DescriptorPool pool = nullptr;
-    vk::raii::DescriptorSet set = nullptr;
+    vk::DescriptorSet set;  // the pool's
 };
 
 /// `previous`: of the moment before; the same where there is none.

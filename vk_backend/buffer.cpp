@@ -1,5 +1,6 @@
 #include "buffer.h"
 
+#include <algorithm>
 #include <initializer_list>
 #include <string>
 
@@ -28,12 +29,24 @@ std::uint32_t memory_type(const Gpu& gpu, std::uint32_t allowed, MemoryKind kind
     throw Error("Vulkan device " + gpu.name + ": no fitting memory type");
 }
 
+// Asked for more, some drivers promise it all the same.
+std::uint64_t largest_heap(const Gpu& gpu) {
+    std::uint64_t bytes = 0;
+    for (std::uint32_t i = 0; i < gpu.memory.memoryHeapCount; ++i) {
+        bytes = std::max(bytes, gpu.memory.memoryHeaps[i].size);
+    }
+    return bytes;
+}
+
 }  // namespace
 
 Buffer make_buffer(const Gpu& gpu, const char* what, std::uint64_t size, vk::BufferUsageFlags usage, MemoryKind kind) {
     Buffer buffer;
     if (size == 0) {
         return buffer;
+    }
+    if (size > largest_heap(gpu)) {
+        throw Error("Vulkan device " + gpu.name + ": " + what + ": " + std::to_string(size) + " bytes are more than it has");
     }
     in_context(std::string("allocating ") + std::to_string(size) + " bytes for " + what, [&] {
         buffer.handle = gpu.device.createBuffer({.size = size, .usage = usage});

@@ -13,17 +13,11 @@ std::uint32_t layers_of(const Film& film) {
            (film.first_hits.empty() ? 0U : shared::FEATURE_FIRST_HIT_LAYERS);
 }
 
-bool fits(const FilmMemory& memory, const Film& film) {
-    return memory.width == film.width && memory.height == film.height &&
-           (memory.moments.size > 0) == !film.moments.empty() &&
-           (memory.first_hits.size > 0) == !film.first_hits.empty();
-}
-
 }  // namespace
 
 DeviceFilm FilmUploader::upload(const Film& film) {
     return in_context("copying a picture to the device", [&] {
-        if (!film_ || !fits(*film_, film)) {
+        if (!film_ || !fits(*film_, film.width, film.height, layers_of(film))) {
             film_ = std::make_shared<FilmMemory>(make_film(*gpu_, film.width, film.height, layers_of(film)));
         }
         if (!uploader_) {

@@ -1,7 +1,10 @@
 #include "display_pass.h"
 
 #include <array>
+#include <bit>
+#include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "../shaders/display.h"
 #include "commands.h"
@@ -54,6 +57,8 @@ shared::DisplayFilm describe(const DeviceFilm& shown) {
     return film;
 }
 
+constexpr std::uint32_t histogram_bytes = shared::HISTOGRAM_BINS * sizeof(std::uint32_t);
+
 shared::Display describe(const DisplayRequest& request, const DisplayPicture& picture) {
     shared::Display display{};
     display.left = describe(request.left);
@@ -93,6 +98,37 @@ void change_layout(const vk::raii::CommandBuffer& commands, vk::Image image, con
     commands.pipelineBarrier(change.before, change.after, {}, memory, {}, barrier);
 }
 
+void bind(const Gpu& gpu, const DisplayPass& pass, DisplayPicture& picture) {
+    using Type = vk::DescriptorType;
+    const std::array<vk::DescriptorPoolSize, 2> sizes = {
+        {{.type = Type::eStorageImage, .descriptorCount = 1}, {.type = Type::eStorageBuffer, .descriptorCount = 1}}};
+    picture.pool =
+        gpu.device.createDescriptorPool({.maxSets = 1, .poolSizeCount = sizes.size(), .pPoolSizes = sizes.data()});
+    vk::DescriptorSetAllocateInfo allocate{.descriptorPool = *picture.pool};
+    allocate.setSetLayouts(*pass.set);
+    picture.set = gpu.device.allocateDescriptorSets(allocate).front().release();
+    const vk::DescriptorImageInfo image{.imageView = *picture.view, .imageLayout = Layout::eGeneral};
+    const vk::DescriptorBufferInfo histograms{.buffer = *picture.histogram.handle, .range = VK_WHOLE_SIZE};
+    const std::array<vk::WriteDescriptorSet, 2> writes = {{
+        {.dstSet = picture.set,
+         .dstBinding = 0,
+         .descriptorCount = 1,
+         .descriptorType = Type::eStorageImage,
+         .pImageInfo = &image},
+        {.dstSet = picture.set,
+         .dstBinding = 1,
+         .descriptorCount = 1,
+         .descriptorType = Type::eStorageBuffer,
+         .pBufferInfo = &histograms},
+    }};
+    gpu.device.updateDescriptorSets(writes, {});
+}
+
+// Where a bin begins.
+float bin_start(std::uint32_t bin) {
+    return std::bit_cast<float>((shared::HISTOGRAM_FIRST + bin) << 21U);
+}
+
 }  // namespace
 
 bool is_scalar(DisplayLayer layer) {
@@ -115,14 +151,21 @@ bool is_scalar(DisplayLayer layer) {
 
 DisplayPass make_display_pass(const Gpu& gpu) {
     return in_context("setting up the display", [&] {
-        const vk::DescriptorSetLayoutBinding binding{.binding = 0,
-                                                     .descriptorType = vk::DescriptorType::eStorageImage,
-                                                     .descriptorCount = 1,
-                                                     .stageFlags = vk::ShaderStageFlagBits::eCompute};
+        const std::array<vk::DescriptorSetLayoutBinding, 2> bindings = {{
+            {.binding = 0,
+             .descriptorType = vk::DescriptorType::eStorageImage,
+             .descriptorCount = 1,
+             .stageFlags = vk::ShaderStageFlagBits::eCompute},
+            {.binding = 1,
+             .descriptorType = vk::DescriptorType::eStorageBuffer,
+             .descriptorCount = 1,
+             .stageFlags = vk::ShaderStageFlagBits::eCompute},
+        }};
         const vk::PushConstantRange push{.stageFlags = vk::ShaderStageFlagBits::eCompute,
                                          .size = sizeof(shared::Display)};
         DisplayPass pass;
-        pass.set = gpu.device.createDescriptorSetLayout({.bindingCount = 1, .pBindings = &binding});
+        pass.set =
+            gpu.device.createDescriptorSetLayout({.bindingCount = bindings.size(), .pBindings = bindings.data()});
         pass.layout = gpu.device.createPipelineLayout({.setLayoutCount = 1,
                                                        .pSetLayouts = &*pass.set,
                                                        .pushConstantRangeCount = 1,
@@ -154,48 +197,65 @@ DisplayPicture make_display_picture(const Gpu& gpu, const DisplayPass& pass, std
         picture.memory = allocate_image(gpu, picture.image);
         picture.view = gpu.device.createImageView(
             {.image = *picture.image, .viewType = vk::ImageViewType::e2D, .format = format, .subresourceRange = whole});
-        const vk::DescriptorPoolSize size{.type = vk::DescriptorType::eStorageImage, .descriptorCount = 1};
-        picture.pool = gpu.device.createDescriptorPool({.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-                                                        .maxSets = 1,
-                                                        .poolSizeCount = 1,
-                                                        .pPoolSizes = &size});
-        picture.set =
-            std::move(gpu.device
-                          .allocateDescriptorSets(
-                              {.descriptorPool = *picture.pool, .descriptorSetCount = 1, .pSetLayouts = &*pass.set})
-                          .front());
-        const vk::DescriptorImageInfo image{.imageView = *picture.view, .imageLayout = Layout::eGeneral};
-        gpu.device.updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *picture.set,
-                                                               .dstBinding = 0,
-                                                               .descriptorCount = 1,
-                                                               .descriptorType = vk::DescriptorType::eStorageImage,
-                                                               .pImageInfo = &image},
-                                        {});
+        using BufferUsage = vk::BufferUsageFlagBits;
+        picture.histogram = make_buffer(
+            gpu, "the picture's numbers", histogram_bytes,
+            BufferUsage::eStorageBuffer | BufferUsage::eTransferDst | BufferUsage::eTransferSrc, MemoryKind::device);
+        picture.histograms = make_buffer(gpu, "the picture's numbers", std::uint64_t{display_slots} * histogram_bytes,
+                                         BufferUsage::eTransferDst, MemoryKind::readback);
+        bind(gpu, pass, picture);
         return picture;
     });
 }
 
 void record_display(const vk::raii::CommandBuffer& commands, const DisplayPass& pass, const DisplayPicture& picture,
-                    const DisplayRequest& request) {
+                    const DisplayRequest& request, std::uint32_t slot) {
+    assert(slot < display_slots);
     change_layout(commands, *picture.image,
                   {.from = Layout::eUndefined,
                    .to = Layout::eGeneral,
                    .before = PipelineStage::eAllCommands,
-                   .after = PipelineStage::eComputeShader,
+                   .after = PipelineStage::eTransfer | PipelineStage::eComputeShader,
                    .written = Access::eMemoryWrite,
-                   .read = Access::eShaderRead | Access::eShaderWrite});
+                   .read = Access::eTransferWrite | Access::eShaderRead | Access::eShaderWrite});
+    commands.fillBuffer(*picture.histogram.handle, 0, VK_WHOLE_SIZE, 0);
+    full_barrier(commands);
     const shared::Display display = describe(request, picture);
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pass.pipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pass.layout, 0, *picture.set, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pass.layout, 0, picture.set, {});
     commands.pushConstants<shared::Display>(*pass.layout, vk::ShaderStageFlagBits::eCompute, 0, display);
     commands.dispatch((picture.width + group_side - 1) / group_side, (picture.height + group_side - 1) / group_side, 1);
     change_layout(commands, *picture.image,
                   {.from = Layout::eGeneral,
                    .to = Layout::eShaderReadOnlyOptimal,
                    .before = PipelineStage::eComputeShader,
-                   .after = PipelineStage::eFragmentShader,
+                   .after = PipelineStage::eFragmentShader | PipelineStage::eTransfer,
                    .written = Access::eShaderWrite,
-                   .read = Access::eShaderRead});
+                   .read = Access::eShaderRead | Access::eTransferRead});
+    commands.copyBuffer(*picture.histogram.handle, *picture.histograms.handle,
+                        vk::BufferCopy{.dstOffset = std::uint64_t{slot} * histogram_bytes, .size = histogram_bytes});
+    const vk::MemoryBarrier to_host{.srcAccessMask = Access::eTransferWrite, .dstAccessMask = Access::eHostRead};
+    commands.pipelineBarrier(PipelineStage::eTransfer, PipelineStage::eHost, {}, to_host, {}, {});
+}
+
+std::optional<DisplayRange> shown_range(const DisplayPicture& picture, std::uint32_t slot) {
+    assert(slot < display_slots);
+    const auto* first = static_cast<const std::uint32_t*>(picture.histograms.mapped) + slot * shared::HISTOGRAM_BINS;
+    const std::span<const std::uint32_t> bins(first, shared::HISTOGRAM_BINS);
+    const std::uint64_t total = std::accumulate(bins.begin(), bins.end(), std::uint64_t{0});
+    if (total == 0) {
+        return std::nullopt;
+    }
+    // The bin below whose end the share lies.
+    const auto bin_at = [&](double share) {
+        std::uint64_t seen = 0;
+        std::uint32_t bin = 0;
+        while (static_cast<double>(seen += bins[bin]) < share * static_cast<double>(total)) {
+            ++bin;
+        }
+        return bin;
+    };
+    return DisplayRange{.low = bin_start(bin_at(0.01)), .high = bin_start(bin_at(0.99) + 1)};
 }
 
 Image read_display(const Gpu& gpu, const DisplayPicture& picture) {

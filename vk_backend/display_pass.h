@@ -1,8 +1,9 @@
 // From films to the picture in the window: a compute shader that reads up to two films and writes display values.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <vector>
+#include <optional>
 
 #include "device_film.h"
 #include "image/image.h"
@@ -29,8 +30,8 @@ bool is_scalar(DisplayLayer layer);
 
 /// What is to be seen. Films may be of any size; each is stretched over the whole picture, pixel by nearest pixel.
 struct DisplayRequest {
-    DeviceFilm left;
-    DeviceFilm right;
+    DeviceFilm left = {};
+    DeviceFilm right = {};
     std::uint32_t divider = ~0U;  // column of the picture from which on `right` is seen
     bool difference = false;      // left - right instead of either: blue below zero, red above; `high` is full colour
     DisplayLayer layer = DisplayLayer::radiance;
@@ -57,17 +58,31 @@ struct DisplayPicture {
     vk::raii::DeviceMemory memory = nullptr;
     vk::raii::Image image = nullptr;
     vk::raii::ImageView view = nullptr;
+    Buffer histogram;   // of a scalar layer's numbers, as it is counted
+    Buffer histograms;  // counted, for the host, one a slot
     vk::raii::DescriptorPool pool = nullptr;
-    vk::raii::DescriptorSet set = nullptr;  // for the pass
+    vk::DescriptorSet set;  // the pool's, for the pass
 };
 
 /// Must outlive the frames in flight that show it. Throws Error where memory runs out.
 DisplayPicture make_display_picture(const Gpu& gpu, const DisplayPass& pass, std::uint32_t width, std::uint32_t height);
 
+constexpr std::uint32_t display_slots = 2;  // frames in flight
+
 /// Between barriers of its own, for what renders in earlier submissions and for fragment shaders later on. The
-/// request's films must outlive the commands.
+/// request's films must outlive the commands. Frames in flight at the same time have slots of their own.
 void record_display(const vk::raii::CommandBuffer& commands, const DisplayPass& pass, const DisplayPicture& picture,
-                    const DisplayRequest& request);
+                    const DisplayRequest& request, std::uint32_t slot = 0);
+
+struct DisplayRange {
+    float low = 0;
+    float high = 0;
+};
+
+/// Where the numbers of the scalar layer or of the difference lay that the slot's last frame showed: 1st and 99th
+/// percentile of the sizes of those that are not 0, to a quarter octave outwards. None where there were none. That
+/// frame has ended.
+std::optional<DisplayRange> shown_range(const DisplayPicture& picture, std::uint32_t slot = 0);
 
 /// Display values in [0, 1], 3 channels, for write_png. The picture has been recorded and submitted.
 Image read_display(const Gpu& gpu, const DisplayPicture& picture);

@@ -34,6 +34,12 @@ FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t featur
     return film;
 }
 
+bool fits(const FilmMemory& film, int width, int height, std::uint32_t features) {
+    return film.width == width && film.height == height &&
+           (film.moments.size > 0) == ((features & shared::FEATURE_STANDARD_ERROR) != 0) &&
+           (film.first_hits.size > 0) == ((features & shared::FEATURE_FIRST_HIT_LAYERS) != 0);
+}
+
 void clear_film(const Gpu& gpu, const FilmMemory& film) {
     run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
         full_barrier(commands);  // a display may be reading it

@@ -19,6 +19,9 @@ struct FilmMemory {
 /// A film of zeros with the layers that `features` names.
 FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t features);
 
+/// Whether it is of that size and has the layers that `features` names, and no others.
+bool fits(const FilmMemory& film, int width, int height, std::uint32_t features);
+
 /// Zeros again. Nothing that writes the film may be in flight; a display that reads it may.
 void clear_film(const Gpu& gpu, const FilmMemory& film);
 

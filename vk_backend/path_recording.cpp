@@ -24,6 +24,7 @@ Buffer record_buffer(const Gpu& gpu, std::uint64_t bytes) {
 
 void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& constants, std::uint32_t vertices_per_path,
                                 const Buffer& vertices, const Buffer& summaries) {
+    require_bound();
     const TracePipeline& recorder = pipeline(shader_binary("record.rgen"));
     if (!recording_speed_) {
         recording_speed_.emplace(dispatch_seconds_);

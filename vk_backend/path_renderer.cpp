@@ -33,7 +33,7 @@ void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipelin
                      const PipelineLayout& layout, const Bindings& bindings, const shared::Dispatch& dispatch,
                      std::uint32_t width, std::uint32_t height) {
     commands.bindPipeline(vk::PipelineBindPoint::eRayTracingKHR, *pipeline.pipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eRayTracingKHR, *layout.layout, 0, *bindings.set, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eRayTracingKHR, *layout.layout, 0, bindings.set, {});
     commands.pushConstants<shared::Dispatch>(*layout.layout, vk::ShaderStageFlagBits::eRaygenKHR, 0, dispatch);
     trace(commands, pipeline, width, height);
 }
@@ -124,6 +124,12 @@ void PathRenderer::bind(const PackedScene& packed) {
     }
 }
 
+void PathRenderer::require_bound() const {
+    if (!bindings_.set) {
+        throw Error("Vulkan device " + gpu_->name + ": its last settings could not be taken over");
+    }
+}
+
 // Some drivers compile at the first dispatch. This one adds no samples, and keeps that time out of the measured ones.
 void PathRenderer::warm_up(const TracePipeline& pipeline, const Bindings& bindings) const {
     run_commands(*gpu_, [&](const vk::raii::CommandBuffer& commands) {
@@ -133,6 +139,7 @@ void PathRenderer::warm_up(const TracePipeline& pipeline, const Bindings& bindin
 }
 
 void PathRenderer::render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
+    require_bound();
     in_context("rendering", [&] {
         if (resamples()) {
             render_frames(first, count, cancel);
@@ -144,6 +151,7 @@ void PathRenderer::render(std::uint32_t first, std::uint32_t count, const std::a
 }
 
 void PathRenderer::restart(std::uint32_t seed) {
+    require_bound();
     in_context("starting over", [&] {
         constants_.seed = seed;
         replace_constants(*gpu_, bindings_, constants_);
@@ -157,6 +165,7 @@ void PathRenderer::clear_film() {
 }
 
 void PathRenderer::move_to(const PackedScene& moment) {
+    require_bound();
     in_context("moving the scene", [&] {
         if (!mover_) {
             mover_ = std::make_unique<Uploader>(
@@ -196,8 +205,7 @@ void PathRenderer::render_paths(std::uint32_t first, std::uint32_t count, const 
 }
 
 DeviceFilm PathRenderer::device_film() const {
-    const bool has_reservoirs = resampling_->reservoirs.size > 0;
-    return {.film = film_, .resampling = has_reservoirs ? resampling_ : nullptr, .reservoir_set = reservoir_set_};
+    return {.film = film_, .resampling = reservoir_set_ ? resampling_ : nullptr, .reservoir_set = reservoir_set_.value_or(0)};
 }
 
 void PathRenderer::aim_dispatches(double seconds) {

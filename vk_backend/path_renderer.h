@@ -63,6 +63,9 @@ private:
     const TracePipeline& pipeline(Spirv ray_generation);
     void choose_pipelines();
     void bind(const PackedScene& packed);
+    void require_bound() const;
+    void replace_top_levels(const PackedScene& packed);
+    void replace_film();
     void count_bytes();
     SceneAddresses addresses(const FilmMemory& film) const;
     void render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
@@ -93,7 +96,7 @@ private:
     std::array<const TracePipeline*, resampling_stages> stages_{};
     ResamplingSchedule schedule_;
     ReservoirHook hook_;
-    std::uint32_t reservoir_set_ = 0;  // that the last frame left
+    std::optional<std::uint32_t> reservoir_set_;  // that the last frame left
     Bindings bindings_;
     double dispatch_seconds_ = 0.06;
     SpeedEstimate speed_{dispatch_seconds_};

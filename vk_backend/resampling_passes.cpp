@@ -14,14 +14,33 @@ Buffer film_buffer(const Gpu& gpu, const char* what, std::uint64_t bytes) {
                                     MemoryKind::device);
 }
 
+struct Bytes {
+    std::uint64_t first_vertices;
+    std::uint64_t reservoirs;
+    std::uint64_t surfaces;
+};
+
+Bytes bytes_for(const shared::RenderConstants& constants) {
+    const ResamplingSets sets = resampling_sets(constants);
+    const std::uint64_t pixels = std::uint64_t{constants.size.x} * constants.size.y;
+    return {.first_vertices = pixels * sets.first_vertices * sizeof(shared::FirstVertex),
+            .reservoirs = pixels * sets.reservoirs * sizeof(shared::Reservoir),
+            .surfaces = pixels * sets.surfaces * sizeof(shared::ReuseSurface)};
+}
+
 }  // namespace
 
 ResamplingMemory make_resampling_memory(const Gpu& gpu, const shared::RenderConstants& constants) {
-    const ResamplingSets sets = resampling_sets(constants);
-    const std::uint64_t pixels = std::uint64_t{constants.size.x} * constants.size.y;
-    return {.first_vertices = film_buffer(gpu, "first vertices", pixels * sets.first_vertices * sizeof(shared::FirstVertex)),
-            .reservoirs = film_buffer(gpu, "reservoirs", pixels * sets.reservoirs * sizeof(shared::Reservoir)),
-            .surfaces = film_buffer(gpu, "reuse surfaces", pixels * sets.surfaces * sizeof(shared::ReuseSurface))};
+    const Bytes bytes = bytes_for(constants);
+    return {.first_vertices = film_buffer(gpu, "first vertices", bytes.first_vertices),
+            .reservoirs = film_buffer(gpu, "reservoirs", bytes.reservoirs),
+            .surfaces = film_buffer(gpu, "reuse surfaces", bytes.surfaces)};
+}
+
+bool fits(const ResamplingMemory& memory, const shared::RenderConstants& constants) {
+    const Bytes bytes = bytes_for(constants);
+    return memory.first_vertices.size == bytes.first_vertices && memory.reservoirs.size == bytes.reservoirs &&
+           memory.surfaces.size == bytes.surfaces;
 }
 
 void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory) {

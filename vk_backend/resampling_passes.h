@@ -22,6 +22,9 @@ struct ResamplingMemory {
 /// The buffers that the constants' integrator needs.
 ResamplingMemory make_resampling_memory(const Gpu& gpu, const shared::RenderConstants& constants);
 
+/// Whether these are the buffers that the constants ask for.
+bool fits(const ResamplingMemory& memory, const shared::RenderConstants& constants);
+
 void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory);
 
 std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory);

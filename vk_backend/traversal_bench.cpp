@@ -108,6 +108,7 @@ struct Runner {
 }  // namespace
 
 TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
+    require_bound();
     return in_context("measuring traversal", [&] {
         const TracePipeline recording = compile(shader_binary("path.rgen"), true);
         const TracePipeline bare = compile(shader_binary("bare.rgen"), false);

@@ -32,6 +32,9 @@ public:
           picture_(make_display_picture(*gpu, pass_, static_cast<std::uint32_t>(columns),
                                         static_cast<std::uint32_t>(rows))) {}
 
+    /// Of what was shown last.
+    std::optional<DisplayRange> range() const { return shown_range(picture_); }
+
     Image show(const DisplayRequest& request) {
         run_commands(
             *gpu, [&](const vk::raii::CommandBuffer& commands) { record_display(commands, pass_, picture_, request); });
@@ -112,7 +115,7 @@ TEST_CASE("Radiance is shown as tonemap_image has it, by every tone map") {
             CAPTURE(tonemap_name(op), exposure);
             const Image expected = tonemapped(layers.color, op, exposure);
             const Image shown =
-                display.show({.left = renderer.device_film(), .right = {}, .tonemap = op, .exposure_ev = exposure});
+                display.show({.left = renderer.device_film(), .tonemap = op, .exposure_ev = exposure});
             CHECK(worst(shown, [&](int x, int y) { return color_at(expected, x, y); }) < 1);
         }
     }
@@ -125,7 +128,7 @@ TEST_CASE("Layers of a film are shown in their colours") {
     PathRenderer renderer(display.gpu, generated_scene("cornell", layered_settings(Integrator::path)));
     add_samples(renderer, 3);
     const Film film = renderer.film();
-    DisplayRequest request{.left = renderer.device_film(), .right = {}, .low = 0.0F, .high = 1.0F};
+    DisplayRequest request{.left = renderer.device_film(), .low = 0.0F, .high = 1.0F};
     const auto check = [&](DisplayLayer layer, float low, float high, const std::function<vec3(std::size_t)>& color) {
         CAPTURE(static_cast<int>(layer));
         request.layer = layer;
@@ -158,12 +161,12 @@ TEST_CASE("Reservoirs are shown as the last frame left them") {
     NEED_VULKAN();
     Display display(width, height);
     RenderSettings settings = layered_settings(Integrator::restir);
-    settings.resampling.spatial_passes = GENERATE(0U, 1U, 2U);
+    settings.resampling.spatial_passes = GENERATE(1U, 2U);
     PathRenderer renderer(display.gpu, generated_scene("cornell", settings));
     std::vector<shared::Reservoir> last;
     renderer.watch_reservoirs(
         [&](const ResamplingStep&, std::span<const shared::Reservoir> all) { last.assign(all.begin(), all.end()); });
-    DisplayRequest request{.right = {}, .low = 0, .high = 20};
+    DisplayRequest request{.low = 0, .high = 20};
     for (std::uint32_t frames = 1; frames < 4; ++frames) {
         CAPTURE(settings.resampling.spatial_passes, frames);
         renderer.restart(frames);
@@ -227,11 +230,40 @@ TEST_CASE("A difference is signed, black where the films agree, and unknown wher
     check_no_validation_messages();
 }
 
+TEST_CASE("The range of the numbers shown leaves out zeros and the rarest on either side") {
+    NEED_VULKAN();
+    Display display(width, height);
+    FilmUploader uploader(display.gpu);
+    Film film = plain_film(width, height, vec3(0));
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        film.pixels[i].samples = i % 4 == 0 ? 0 : i == 1 ? 1 : i == 2 ? 1000000 : i % 2 == 0 ? 20 : 33;
+    }
+    DisplayRequest request{.left = uploader.upload(film), .layer = DisplayLayer::samples};
+    display.show(request);
+    REQUIRE(display.range());
+    CHECK(display.range()->low == 20);
+    CHECK(display.range()->high == 40);
+    request.layer = DisplayLayer::nonfinite;  // nothing but zeros
+    display.show(request);
+    CHECK_FALSE(display.range());
+    request.layer = DisplayLayer::radiance;  // no numbers
+    display.show(request);
+    CHECK_FALSE(display.range());
+    request.right = FilmUploader(display.gpu).upload(plain_film(width, height, vec3(1e-3F)));
+    request.difference = true;
+    display.show(request);
+    REQUIRE(display.range());
+    CHECK(display.range()->low <= 1e-3F);
+    CHECK(display.range()->high > 1e-3F);
+    CHECK(display.range()->high <= 1.25F * display.range()->low);
+    check_no_validation_messages();
+}
+
 TEST_CASE("What no film holds is shown as a checkerboard, and no number as cyan") {
     NEED_VULKAN();
     Display display(width, height);
     FilmUploader uploader(display.gpu);
-    DisplayRequest request{.left = {}, .right = {}};
+    DisplayRequest request{.left = {}};
     CHECK(worst(display.show(request), checkerboard_at) < 1);
     request.left = uploader.upload(plain_film(width, height, vec3(0.5F)));
     for (const DisplayLayer layer : {DisplayLayer::albedo, DisplayLayer::normal, DisplayLayer::depth,
@@ -264,8 +296,8 @@ TEST_CASE("A host's film looks as the device's own, and takes the place of the o
         CHECK((memory == nullptr || memory == copy.film));
         memory = copy.film;
         for (const DisplayLayer layer : {DisplayLayer::radiance, DisplayLayer::normal, DisplayLayer::standard_error}) {
-            const Image own = display.show({.left = renderer.device_film(), .right = {}, .layer = layer});
-            const Image copied = display.show({.left = copy, .right = {}, .layer = layer});
+            const Image own = display.show({.left = renderer.device_film(), .layer = layer});
+            const Image copied = display.show({.left = copy, .layer = layer});
             CHECK(own.data == copied.data);
         }
     }
@@ -281,7 +313,7 @@ TEST_CASE("A film in view stays what it was when its renderer goes on to another
     PathRenderer renderer(display.gpu, pack_scene(scene, settings));
     add_samples(renderer, 2);
     const DeviceFilm seen = renderer.device_film();
-    const auto show = [&](DisplayLayer layer) { return display.show({.left = seen, .right = {}, .layer = layer}); };
+    const auto show = [&](DisplayLayer layer) { return display.show({.left = seen, .layer = layer}); };
     const Image radiance = show(DisplayLayer::radiance);
     const Image weights = show(DisplayLayer::reservoir_w);
     settings.width = 2 * width;

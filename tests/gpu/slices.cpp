@@ -52,4 +52,22 @@ TEST_CASE("The budget finds a device's speed within a few dispatches, and falls 
     CHECK(static_cast<double>(speed.budget()) * 1e-6 == Approx(0.06).epsilon(1e-3));
 }
 
+TEST_CASE("The budget follows another aim at once, and grows towards it by steps") {
+    SpeedEstimate speed(0.06, 4096);
+    const double cost = 1e-6;
+    for (int i = 0; i < 5; ++i) {
+        speed.learn(speed.budget(), static_cast<double>(speed.budget()) * cost);
+    }
+    CHECK(speed.budget() == 60000);
+    speed.aim(0.008);
+    CHECK(speed.budget() == 8000);
+    speed.aim(0.8);
+    CHECK(speed.budget() == 64000);
+    SpeedEstimate fresh(0.06, 4096);
+    fresh.aim(0.002);
+    CHECK(fresh.budget() == 4096);
+    fresh.learn(4096, 4096 * cost);
+    CHECK(fresh.budget() == 2000);
+}
+
 }  // namespace diptych::tests
