@@ -275,7 +275,8 @@ void PanelEngine::publish(bool first) {
     shot_.correlated = of_film.integrator == Integrator::restir;
     shot_.samples_per_second = speed_.samples_per_second;
     shot_.costs = renderer_->costs();
-    if (shot_.device_film ? device_looks_.due(now) : first || host_films_.due(now)) {
+    // A film on the device is shown from there, and no motion waits for a copy of it.
+    if (shot_.device_film ? !job_->moving && device_looks_.due(now) : first || host_films_.due(now)) {
         look();
     }
     publish_(std::make_shared<const PanelShot>(shot_));
