@@ -76,7 +76,7 @@ TEST_CASE("Two renderers and a display on one device, each in its own thread, do
     check_no_validation_messages();
 }
 
-TEST_CASE("Dispatches keep to the time that they are told") {
+TEST_CASE("Dispatches of another length give the same picture") {
     NEED_VULKAN();
     RenderSettings settings = settings_of(Integrator::path);
     settings.width = settings.height = 96;
