@@ -65,10 +65,23 @@ void replace_structures(const Gpu& gpu, const Bindings& bindings, vk::Accelerati
     }
 }
 
-void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants) {
-    Uploader uploader(gpu, sizeof(constants));
-    uploader.upload(bindings.constants, std::as_bytes(std::span(&constants, 1)));
+namespace {
+
+template <typename T>
+void overwrite(const Gpu& gpu, const Buffer& buffer, const T& value) {
+    Uploader uploader(gpu, sizeof(value));
+    uploader.upload(buffer, std::as_bytes(std::span(&value, 1)));
     uploader.finish();
+}
+
+}  // namespace
+
+void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants) {
+    overwrite(gpu, bindings.constants, constants);
+}
+
+void replace_addresses(const Gpu& gpu, const Bindings& bindings, const SceneAddresses& addresses) {
+    overwrite(gpu, bindings.addresses, addresses);
 }
 
 }  // namespace diptych

@@ -22,6 +22,9 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
 /// Puts other constants in the place of those it was made with. Nothing that reads them may be in flight.
 void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants);
 
+/// Likewise other addresses.
+void replace_addresses(const Gpu& gpu, const Bindings& bindings, const SceneAddresses& addresses);
+
 /// Likewise other top-level structures.
 void replace_structures(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure,
                         vk::AccelerationStructureKHR previous);

@@ -57,12 +57,7 @@ void PathRenderer::replace_top_levels(const PackedScene& packed) {
 }
 
 void PathRenderer::replace_film() {
-    const auto size = glm::ivec2(constants_.size);
-    if (fits(*film_, size.x, size.y, features_)) {
-        diptych::clear_film(*gpu_, *film_);
-    } else {
-        film_ = std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_));
-    }
+    begin_film();
     if (!fits(*resampling_, constants_)) {
         resampling_ = std::make_shared<ResamplingMemory>(make_resampling_memory(*gpu_, constants_));
     }

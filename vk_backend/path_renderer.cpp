@@ -54,7 +54,7 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
     });
     const auto size = glm::ivec2(constants_.size);
     in_context("making the film", [&] {
-        film_ = std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_));
+        film_ = films_.emplace_back(std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_)));
         resampling_ = std::make_shared<ResamplingMemory>(make_resampling_memory(*gpu_, constants_));
     });
     costs_.build_seconds = seconds_since(start);
@@ -73,8 +73,27 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
 
 void PathRenderer::count_bytes() {
     costs_.acceleration_bytes = bottom_.bytes + top_.storage.size + previous_top_.storage.size;
-    costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + film_bytes(*film_) +
+    costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + films_.size() * film_bytes(*film_) +
                    resampling_memory_bytes(*resampling_);
+}
+
+// An empty film that nobody looks at: what is shown stays whole while the next picture begins. There are as many of them as are looked at
+// at a time, and one more.
+void PathRenderer::begin_film() {
+    const auto size = glm::ivec2(constants_.size);
+    std::erase_if(films_, [&](const auto& film) { return !fits(*film, size.x, size.y, features_); });
+    const auto free = std::find_if(films_.begin(), films_.end(),
+                                   [&](const auto& film) { return film.use_count() == (film == film_ ? 2 : 1); });
+    if (free != films_.end()) {
+        film_ = *free;
+        diptych::clear_film(*gpu_, *film_);
+    } else {
+        film_ = films_.emplace_back(std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_)));
+        count_bytes();
+    }
+    if (bindings_.set) {
+        replace_addresses(*gpu_, bindings_, addresses(*film_));
+    }
 }
 
 SceneAddresses PathRenderer::addresses(const FilmMemory& film) const {
@@ -156,12 +175,12 @@ void PathRenderer::restart(std::uint32_t seed) {
         constants_.seed = seed;
         replace_constants(*gpu_, bindings_, constants_);
         schedule_.restart();
-        diptych::clear_film(*gpu_, *film_);
+        begin_film();
     });
 }
 
 void PathRenderer::clear_film() {
-    in_context("emptying the film", [&] { diptych::clear_film(*gpu_, *film_); });
+    in_context("emptying the film", [&] { begin_film(); });
 }
 
 void PathRenderer::move_to(const PackedScene& moment) {

@@ -51,7 +51,8 @@ public:
 
     const BottomLevels& bottom_levels() const { return bottom_; }
 
-    /// What there is to be seen, for a display pass on the same device; what is rendered later shows in it too.
+    /// What there is to be seen, for a display pass on the same device; what is added to this picture later shows in it too. It stays as it is
+    /// while the next picture begins.
     DeviceFilm device_film() const;
     /// Seconds of device time a dispatch may take from now on: whoever shares the queue waits for two of them at most.
     void aim_dispatches(double seconds);
@@ -67,6 +68,7 @@ private:
     void replace_top_levels(const PackedScene& packed);
     void replace_film();
     void count_bytes();
+    void begin_film();
     SceneAddresses addresses(const FilmMemory& film) const;
     void render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
     void render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
@@ -88,6 +90,7 @@ private:
     TopLevel top_;
     TopLevel previous_top_;            // of the moment before, where PackedScene::keeps_previous
     std::unique_ptr<Uploader> mover_;  // made at the first move
+    std::vector<std::shared_ptr<FilmMemory>> films_;  // of the present size and layers; one is film_, the others may be looked at
     std::shared_ptr<FilmMemory> film_;
     PipelineLayout layout_;
     std::map<std::pair<const std::uint32_t*, std::uint32_t>, TracePipeline> pipelines_;  // by ray generation shader and features

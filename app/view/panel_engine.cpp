@@ -142,11 +142,14 @@ void PanelEngine::apply(const ViewJob& job) {
             speed_.overhead_seconds = blended(speed_.overhead_seconds, between(begin, Clock::now()));
         }
         aim_dispatches(*renderer_, job.frame_seconds / 2);
+        const bool knows_picture = level == Invalidation::nothing && shot_.figures.version == shot_.version;
         shot_.version = job.version;
         shot_.state = job.state;
         shot_.busy.clear();
-        if (level == Invalidation::nothing) {
-            shot_.figures.version = shot_.figures.version == 0 ? 0 : job.version;  // of the same picture
+        if (knows_picture) {
+            shot_.figures.version = job.version;
+        }
+        if (level == Invalidation::nothing && samples_ > 0) {
             publish(false);
         }
     });
@@ -272,7 +275,8 @@ void PanelEngine::publish(bool first) {
     shot_.correlated = of_film.integrator == Integrator::restir;
     shot_.samples_per_second = speed_.samples_per_second;
     shot_.costs = renderer_->costs();
-    if (shot_.device_film ? device_looks_.due(now) : first || host_films_.due(now)) {
+    // A film on the device is shown from there, and no motion waits for a copy of it.
+    if (shot_.device_film ? !job_->moving && device_looks_.due(now) : first || host_films_.due(now)) {
         look();
     }
     publish_(std::make_shared<const PanelShot>(shot_));

@@ -52,7 +52,7 @@ struct PanelShot {
     FilmFigures figures;        // of `film`
     double samples_per_second = 0;  // over all pixels
     double rays_per_second = 0;
-    double frame_milliseconds = 0;  // of the last samples taken in one go, with all that went before them
+    double frame_milliseconds = 0;  // of the last samples taken in one go
     std::vector<PassTime> passes;   // seconds a sample, as of late
     RendererCosts costs;
     std::string backend;      // "cpu", "vulkan"

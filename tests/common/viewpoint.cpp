@@ -15,6 +15,28 @@ namespace {
 
 using V = glm::dvec3;
 
+using Point = std::optional<glm::dvec3>;
+
+Viewpoint placed(const Point& eye, const Point& look_at, const Point& up = {}) {
+    Viewpoint viewpoint;
+    viewpoint.eye = eye;
+    viewpoint.look_at = look_at;
+    viewpoint.up = up;
+    return viewpoint;
+}
+
+Viewpoint wide(double fov) {
+    Viewpoint viewpoint;
+    viewpoint.fov = fov;
+    return viewpoint;
+}
+
+Viewpoint high(double view_height) {
+    Viewpoint viewpoint;
+    viewpoint.view_height = view_height;
+    return viewpoint;
+}
+
 glm::dvec3 axis(const Camera& camera, int column) { return glm::dvec3(camera.camera_to_world[column]); }
 
 }  // namespace
@@ -22,13 +44,14 @@ glm::dvec3 axis(const Camera& camera, int column) { return glm::dvec3(camera.cam
 TEST_CASE("a camera stands at the eye, looks at the point, and has up above") {
     Camera camera;
     camera.node = 2;
-    place_at({.eye = V(1, 2, 3), .look_at = V(1, 2, -7)}, camera);
+    place_at(placed(V(1, 2, 3), V(1, 2, -7)), camera);
     CHECK(axis(camera, 3) == V(1, 2, 3));
     CHECK(axis(camera, 2) == V(0, 0, 1));
     CHECK(axis(camera, 1) == V(0, 1, 0));
     CHECK(axis(camera, 0) == V(1, 0, 0));
     CHECK(camera.node == none);
-    place_at({.eye = V(0, 5, 0), .look_at = V(0), .up = V(0, 0, -2), .fov = 90}, camera);
+    place_at(placed(V(0, 5, 0), V(0), V(0, 0, -2)), camera);
+    place_at(wide(90), camera);
     CHECK(axis(camera, 2) == V(0, 1, 0));
     CHECK(axis(camera, 1) == V(0, 0, -1));
     CHECK(camera.vertical_fov == Approx(std::acos(-1.0) / 2));
@@ -39,22 +62,22 @@ TEST_CASE("an empty viewpoint leaves the camera, node included") {
     camera.node = 2;
     const glm::dmat4 before = camera.camera_to_world;
     place_at({}, camera);
-    place_at({.fov = 20}, camera);
+    place_at(wide(20), camera);
     CHECK(camera.camera_to_world == before);
     CHECK(camera.node == 2);
 }
 
 TEST_CASE("viewpoints that are none are refused") {
     Camera camera;
-    CHECK_THROWS_WITH(place_at({.eye = V(1), .look_at = V(1)}, camera), Catch::Contains("one point"));
-    CHECK_THROWS_WITH(place_at({.eye = V(0, 1, 0), .look_at = V(0)}, camera), Catch::Contains("--up: is parallel"));
-    CHECK_THROWS_WITH(place_at({.eye = V(0, 0, 1), .look_at = V(0), .up = V(0)}, camera), Catch::Contains("no direction"));
-    CHECK_THROWS_WITH(place_at({.eye = V(0, 0, 1)}, camera), Catch::Contains("--look-at"));
-    CHECK_THROWS_WITH(place_at({.look_at = V(0, 0, 1)}, camera), Catch::Contains("--eye"));
-    CHECK_THROWS_WITH(place_at({.up = V(0, 0, 1)}, camera), Catch::Contains("--up"));
-    CHECK_THROWS_WITH(place_at({.view_height = 2}, camera), Catch::Contains("not orthographic"));
+    CHECK_THROWS_WITH(place_at(placed(V(1), V(1)), camera), Catch::Contains("one point"));
+    CHECK_THROWS_WITH(place_at(placed(V(0, 1, 0), V(0)), camera), Catch::Contains("--up: is parallel"));
+    CHECK_THROWS_WITH(place_at(placed(V(0, 0, 1), V(0), V(0)), camera), Catch::Contains("no direction"));
+    CHECK_THROWS_WITH(place_at(placed(V(0, 0, 1), {}), camera), Catch::Contains("--look-at"));
+    CHECK_THROWS_WITH(place_at(placed({}, V(0, 0, 1)), camera), Catch::Contains("--eye"));
+    CHECK_THROWS_WITH(place_at(placed({}, {}, V(0, 0, 1)), camera), Catch::Contains("--up"));
+    CHECK_THROWS_WITH(place_at(high(2), camera), Catch::Contains("not orthographic"));
     camera.orthographic = true;
-    CHECK_THROWS_WITH(place_at({.fov = 20}, camera), Catch::Contains("orthographic"));
+    CHECK_THROWS_WITH(place_at(wide(20), camera), Catch::Contains("orthographic"));
 }
 
 TEST_CASE("the sun stands where its angles say, and shines away from there") {

@@ -47,6 +47,8 @@ TEST_CASE("Two renderers and a display on one device, each in its own thread, do
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
     PathRenderer path(gpu, path_scene, {.ray_generation = {}, .slice_budget = 200});
     PathRenderer restir(gpu, restir_scene, {.ray_generation = {}, .slice_budget = 200});
+    shoot(path);
+    shoot(restir);
     std::atomic<int> working = 2;
     std::atomic<int> wrong = 0;
     const auto work = [&](PathRenderer& renderer, const std::vector<shared::FilmPixel>& expected) {
@@ -73,6 +75,31 @@ TEST_CASE("Two renderers and a display on one device, each in its own thread, do
     const Image last = read_display(*gpu, picture);
     CHECK(last.at(16, 24, 0) > 0);
     CHECK(last.at(48, 24, 0) > 0);
+    check_no_validation_messages();
+}
+
+TEST_CASE("A film that is looked at stays as it is while the next picture begins") {
+    NEED_VULKAN();
+    for (const Integrator integrator : {Integrator::path, Integrator::restir}) {
+        PathRenderer renderer(open_test_gpu(), generated_scene("cornell", settings_of(integrator)));
+        const std::atomic<bool> cancel = false;
+        const std::vector<shared::FilmPixel> first = shoot(renderer);
+        const FilmMemory* shown = renderer.device_film().film.get();
+        renderer.restart(3);  // nobody looks: the same memory again
+        CHECK(renderer.device_film().film.get() == shown);
+        renderer.render(0, 6, cancel);
+        const DeviceFilm looked_at = renderer.device_film();
+        renderer.restart(4);
+        CHECK(renderer.film().pixels[0].samples == 0);
+        renderer.render(0, 2, cancel);
+        CHECK(renderer.device_film().film != looked_at.film);
+        CHECK(renderer.film().pixels[0].samples == 2);
+        const DeviceFilm second = renderer.device_film();
+        renderer.clear_film();
+        CHECK(renderer.device_film().film != second.film);
+        CHECK(renderer.device_film().film != looked_at.film);
+        CHECK(same_pixels(shoot(renderer), first));  // whichever film it lies in
+    }
     check_no_validation_messages();
 }
 

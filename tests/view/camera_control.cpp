@@ -101,7 +101,11 @@ TEST_CASE("Poles do not flip the camera", "[view]") {
 
 TEST_CASE("A camera that looks straight down can be turned", "[view]") {
     Camera camera = some_camera(false);
-    place_at({.eye = glm::dvec3(0, 5, 0), .look_at = glm::dvec3(0), .up = glm::dvec3(0, 0, -1)}, camera);
+    Viewpoint above;
+    above.eye = glm::dvec3(0, 5, 0);
+    above.look_at = glm::dvec3(0);
+    above.up = glm::dvec3(0, 0, -1);
+    place_at(above, camera);
     orbit(camera, glm::dvec3(0), 0.5, -0.5);
     CHECK(shear(camera) < 1e-12);
     CHECK(camera.camera_to_world[2].y == Approx(std::cos(0.5)).epsilon(1e-9));
