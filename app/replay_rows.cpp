@@ -28,10 +28,18 @@ std::string roulette_text(const PathVertexRecord& v, const Numbers& number) {
     return (v.roulette == shared::ROULETTE_SURVIVED ? "survived at " : "killed at ") + number(v.survival);
 }
 
-bool is_miss(const PathVertexRecord& v) { return v.instance == NONE; }
-bool sampled_light(const PathVertexRecord& v) { return v.light != NONE; }
-bool scattered(const PathVertexRecord& v) { return v.lobe != shared::LOBE_NONE || v.roulette != 0; }
-bool emitted(const PathVertexRecord& v) { return v.emission_weight != 0; }
+bool is_miss(const PathVertexRecord& v) {
+    return v.instance == NONE;
+}
+bool sampled_light(const PathVertexRecord& v) {
+    return v.light != NONE;
+}
+bool scattered(const PathVertexRecord& v) {
+    return v.lobe != shared::LOBE_NONE || v.roulette != 0;
+}
+bool emitted(const PathVertexRecord& v) {
+    return v.emission_weight != 0;
+}
 
 /// One kind of row: shown where any path's vertex has something to say.
 struct Kind {
@@ -41,7 +49,8 @@ struct Kind {
     std::function<std::string(const PathVertexRecord&)> text;
 };
 
-std::vector<Kind> make_kinds(const glm::dvec3& origin, const shared::RenderConstants* constants, const Numbers& number) {
+std::vector<Kind> make_kinds(const glm::dvec3& origin, const shared::RenderConstants* constants,
+                             const Numbers& number) {
     using V = PathVertexRecord;
     const auto always = [](const V&) { return true; };
     const auto hit = [](const V& v) { return !is_miss(v); };
@@ -63,7 +72,10 @@ std::vector<Kind> make_kinds(const glm::dvec3& origin, const shared::RenderConst
          hit,
          [=](const V& v) { return is_miss(v) ? "-" : number(glm::dvec3(v.position) + origin); }},
         {"emission", {RecordField::emission}, emitted, [=](const V& v) { return number(v.emission); }},
-        {"  MIS weight", {RecordField::emission_weight}, emitted, [=](const V& v) { return number(v.emission_weight); }},
+        {"  MIS weight",
+         {RecordField::emission_weight},
+         emitted,
+         [=](const V& v) { return number(v.emission_weight); }},
         {"normal", {RecordField::normal}, scattered, [=](const V& v) { return number(v.normal); }},
         {"light", {RecordField::light}, sampled_light, [=](const V& v) { return light_text(v.light, constants); }},
         {"  pdf", {RecordField::light_pdf}, sampled_light, [=](const V& v) { return number(v.light_pdf); }},
@@ -71,12 +83,17 @@ std::vector<Kind> make_kinds(const glm::dvec3& origin, const shared::RenderConst
         {"  shadow ray", {RecordField::shadow}, sampled_light, [](const V& v) { return shadow_text(v.shadow); }},
         {"lobe", {RecordField::lobe}, scattered, [](const V& v) { return lobe_text(v.lobe); }},
         {"  bsdf pdf", {RecordField::bsdf_pdf}, scattered, [=](const V& v) { return number(v.bsdf_pdf); }},
-        {"roulette", {RecordField::roulette, RecordField::survival}, scattered, [=](const V& v) { return roulette_text(v, number); }},
+        {"roulette",
+         {RecordField::roulette, RecordField::survival},
+         scattered,
+         [=](const V& v) { return roulette_text(v, number); }},
         {"throughput", {RecordField::throughput}, scattered, [=](const V& v) { return number(v.throughput); }},
     };
 }
 
-std::string difference_text(double difference) { return difference == 0 ? "=" : fmt::format("{:.1e}", difference); }
+std::string difference_text(double difference) {
+    return difference == 0 ? "=" : fmt::format("{:.1e}", difference);
+}
 
 ReplayGroup vertex_group(const Replay& replay, const std::vector<Kind>& kinds, std::size_t index) {
     ReplayGroup group{fmt::format("vertex {}", index), {}};
@@ -138,7 +155,10 @@ std::string lobe_text(std::uint32_t lobe) {
     static constexpr const char* names[] = {"none", "diffuse", "specular", "mirror"};
     const bool mapped = (lobe & shared::FACET_MAPPED) != 0;
     const bool tangent = (lobe & shared::FACET_TANGENT) != 0;
-    const char* facet = mapped && tangent ? ", both facets" : tangent ? ", tangent facet" : mapped ? ", mapped facet" : "";
+    const char* facet = mapped && tangent ? ", both facets"
+                        : tangent         ? ", tangent facet"
+                        : mapped          ? ", mapped facet"
+                                          : "";
     return std::string(names[lobe & 3U]) + facet;
 }
 

@@ -28,9 +28,13 @@ std::string line(const ReplayRow& row) {
     return text + "\n";
 }
 
-bool is_miss(const PathVertexRecord& v) { return v.instance == NONE; }
+bool is_miss(const PathVertexRecord& v) {
+    return v.instance == NONE;
+}
 
-nlohmann::ordered_json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+nlohmann::ordered_json vector_json(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 nlohmann::ordered_json vertex_json(const PathVertexRecord& v, const glm::dvec3& origin,
                                    const shared::RenderConstants& constants) {
@@ -65,7 +69,8 @@ nlohmann::ordered_json vertex_json(const PathVertexRecord& v, const glm::dvec3& 
 }  // namespace
 
 std::string replay_text(const Replay& replay, const shared::RenderConstants& constants) {
-    ReplayRow head{.label = "", .cells = {}, .difference = replay.paths.size() > 1 ? "difference" : "", .marked = false};
+    ReplayRow head{
+        .label = "", .cells = {}, .difference = replay.paths.size() > 1 ? "difference" : "", .marked = false};
     for (std::size_t i = 0; i < replay.paths.size(); ++i) {
         const std::string text = replay.backends[i] + ": " + replay.devices[i];
         head.cells.push_back(text.size() < column_width ? text : text.substr(0, column_width - 2) + "…");

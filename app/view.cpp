@@ -69,7 +69,8 @@ void check_options(Options& options) {
         throw Error("--atlas: a view shows one picture, not copies of it");
     }
     if (settings.sampler == SamplerKind::hammersley) {
-        throw Error("--sampler hammersley: is laid out for a known number of samples, and a view takes as many as there is time for");
+        throw Error("--sampler hammersley: is laid out for a known number of samples, and a view takes as many as "
+                    "there is time for");
     }
     if (options.headless) {
         refuse_given(options.window_options, "goes with a window, not with --headless");
@@ -91,8 +92,9 @@ void require_display() {
 #if DIPTYCH_VIEW
     check_display();
 #else
-    throw NoDevice("view: this program was built without a window (DIPTYCH_VIEW=OFF); use view --headless, render --frames or "
-                   "render --live HOST:PORT");
+    throw NoDevice(
+        "view: this program was built without a window (DIPTYCH_VIEW=OFF); use view --headless, render --frames or "
+        "render --live HOST:PORT");
 #endif
 }
 
@@ -157,24 +159,31 @@ void add_view(CLI::App& app, Run& run) {
     with_headless(command->add_option("--frames", options->frames, "Of --headless")
                       ->check(CLI::Range(2U, 1000000U))
                       ->capture_default_str());
-    with_headless(command->add_option("-o,--output", options->output, "The last frame of --headless: .png, .exr or .hdr"));
+    with_headless(
+        command->add_option("-o,--output", options->output, "The last frame of --headless: .png, .exr or .hdr"));
     with_headless(command->add_flag("--json", options->json, "Results of --headless as JSON on stdout"));
     options->window_options.push_back(
         command->add_option("--log", options->log, "One line of JSON an event to this file; - is stdout"));
     options->window_options.push_back(
-        command->add_option("--shots", options->folder, "Folder of the pictures that are saved")->check(CLI::ExistingDirectory));
-    options->window_options.push_back(
-        command->add_option("--interface-scale", options->interface_scale, "Of text and buttons; the display's own by default")
-            ->check(number_between(0.5, 4)));
-    command->add_option("--seed", request.settings.seed, "Of the CPU's panel; the other's is the next")->capture_default_str();
+        command->add_option("--shots", options->folder, "Folder of the pictures that are saved")
+            ->check(CLI::ExistingDirectory));
+    options->window_options.push_back(command
+                                          ->add_option("--interface-scale", options->interface_scale,
+                                                       "Of text and buttons; the display's own by default")
+                                          ->check(number_between(0.5, 4)));
+    command->add_option("--seed", request.settings.seed, "Of the CPU's panel; the other's is the next")
+        ->capture_default_str();
     add_integrator_option(*command, options->arguments);
     add_scene_options(*command, options->arguments);
     command->add_option("--device", options->device, "Vulkan device by index or name; the best by default");
-    command->add_option("--threads", options->threads, "CPU threads; one a core by default")->check(CLI::Range(1, 4096));
-    command->add_flag("--validation", options->validation, "Run Vulkan's validation layers; exit 1 if they have anything to say");
+    command->add_option("--threads", options->threads, "CPU threads; one a core by default")
+        ->check(CLI::Range(1, 4096));
+    command->add_flag("--validation", options->validation,
+                      "Run Vulkan's validation layers; exit 1 if they have anything to say");
     command->add_option("--exposure", request.exposure, "EV, powers of two")->check(number_between(-100, 100));
     request.tonemap = "aces";
-    command->add_option("--tonemap", request.tonemap, "none, exponential, uncharted2, aces or pbr-neutral")->capture_default_str();
+    command->add_option("--tonemap", request.tonemap, "none, exponential, uncharted2, aces or pbr-neutral")
+        ->capture_default_str();
     command->footer(examples);
     command->callback([options, &run] { run = [options] { return run_view(*options); }; });
 }

@@ -11,10 +11,10 @@ namespace diptych::app {
 
 namespace {
 
-constexpr double click_reach = 4;         // pixels
-constexpr double wheel_rest = 0.15;       // seconds after which the wheel is taken to be at rest
-constexpr double wheel_step = 0.88;       // of the distance, a notch
-constexpr double longest_step = 0.1;      // seconds: a frame that took longer does not fling the camera away
+constexpr double click_reach = 4;                  // pixels
+constexpr double wheel_rest = 0.15;                // seconds after which the wheel is taken to be at rest
+constexpr double wheel_step = 0.88;                // of the distance, a notch
+constexpr double longest_step = 0.1;               // seconds: a frame that took longer does not fling the camera away
 constexpr double window_turn = glm::pi<double>();  // radians of a drag across the whole height
 
 double diagonal_of(const LoadedScene& scene) {
@@ -26,12 +26,14 @@ double diagonal_of(const LoadedScene& scene) {
 void CameraHand::follow_presses(const HandInput& input) {
     for (const MousePress& press : input.window->presses) {
         if (press.down && !drag_ && input.mouse_is_free) {
-            drag_ = Drag{.button = press.button,
-                         .pans = press.button == MouseButton::middle || (press.button == MouseButton::left && press.shift),
-                         .start = press.at,
-                         .last = press.at};
+            drag_ =
+                Drag{.button = press.button,
+                     .pans = press.button == MouseButton::middle || (press.button == MouseButton::left && press.shift),
+                     .start = press.at,
+                     .last = press.at};
         } else if (!press.down && drag_ && drag_->button == press.button) {
-            if (!drag_->moved && press.button == MouseButton::left && glm::length(press.at - drag_->start) < click_reach) {
+            if (!drag_->moved && press.button == MouseButton::left &&
+                glm::length(press.at - drag_->start) < click_reach) {
                 click_ = Click{press.at};
             }
             released_at_ = press.at;
@@ -47,7 +49,8 @@ void CameraHand::drag_to(const glm::dvec2& at, const glm::dvec2& size, const Loa
     Camera& camera = state.rendered.camera;
     const glm::dvec2 turn = (at - drag_->last) / size.y * window_turn;
     if (drag_->pans) {
-        pan(camera, drag_->last / size, at / size, size.x / size.y, depth_of(camera, state.pivot, diagonal_of(scene) * 1e-3));
+        pan(camera, drag_->last / size, at / size, size.x / size.y,
+            depth_of(camera, state.pivot, diagonal_of(scene) * 1e-3));
     } else if (drag_->button == MouseButton::left) {
         orbit(camera, state.pivot, -turn.x, turn.y);
     } else {
@@ -74,7 +77,8 @@ void CameraHand::update(const HandInput& input, const LoadedScene& scene, ViewSt
     }
     const bool flies = input.keys_are_free && input.steps != glm::dvec3(0);
     if (flies) {
-        const double step = fly_speed(diagonal_of(scene)) * std::min(input.seconds, longest_step) * (input.fast ? 4 : 1);
+        const double step =
+            fly_speed(diagonal_of(scene)) * std::min(input.seconds, longest_step) * (input.fast ? 4 : 1);
         const glm::dvec3 before(camera.camera_to_world[3]);
         fly(camera, input.steps * step);
         state.pivot += glm::dvec3(camera.camera_to_world[3]) - before;
@@ -93,7 +97,10 @@ bool focus_at(const glm::dvec2& point, const PanelShot& shot, ViewState& state) 
     const Film& film = *shot.film;
     const int x = std::clamp(static_cast<int>(point.x * film.width), 0, film.width - 1);
     const int y = std::clamp(static_cast<int>(point.y * film.height), 0, film.height - 1);
-    const double depth = static_cast<double>(film.first_hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(x)].depth);
+    const double depth =
+        static_cast<double>(film.first_hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
+                                            static_cast<std::size_t>(x)]
+                                .depth);
     if (!(depth > 0) || !std::isfinite(depth)) {
         return false;
     }

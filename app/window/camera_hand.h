@@ -16,9 +16,9 @@ struct HandInput {
     const WindowInput* window = nullptr;
     bool mouse_is_free = false;  // the pointer is over the picture
     bool keys_are_free = false;
-    glm::dvec3 steps{0};   // held keys: right, up, forward
-    bool fast = false;     // Shift
-    double seconds = 0;    // since the last frame
+    glm::dvec3 steps{0};  // held keys: right, up, forward
+    bool fast = false;    // Shift
+    double seconds = 0;   // since the last frame
 };
 
 /// A press that did not move.
@@ -55,7 +55,8 @@ private:
     double still_ = 1;  // seconds since the wheel turned
 };
 
-/// Sets focus and pivot to what the newest film saw at that point of the window, in [0, 1]^2; false where it saw nothing.
+/// Sets focus and pivot to what the newest film saw at that point of the window, in [0, 1]^2; false where it saw
+/// nothing.
 bool focus_at(const glm::dvec2& point, const PanelShot& shot, ViewState& state);
 
 }  // namespace diptych::app

@@ -9,16 +9,26 @@ namespace {
 
 DisplayLayer layer_of(ShownLayer layer) {
     switch (layer) {
-        case ShownLayer::radiance: return DisplayLayer::radiance;
-        case ShownLayer::albedo: return DisplayLayer::albedo;
-        case ShownLayer::normal: return DisplayLayer::normal;
-        case ShownLayer::depth: return DisplayLayer::depth;
-        case ShownLayer::standard_error: return DisplayLayer::standard_error;
-        case ShownLayer::samples: return DisplayLayer::samples;
-        case ShownLayer::light_id: return DisplayLayer::light_id;
-        case ShownLayer::reservoir_confidence: return DisplayLayer::reservoir_m;
-        case ShownLayer::reservoir_weight: return DisplayLayer::reservoir_w;
-        case ShownLayer::nonfinite: return DisplayLayer::nonfinite;
+    case ShownLayer::radiance:
+        return DisplayLayer::radiance;
+    case ShownLayer::albedo:
+        return DisplayLayer::albedo;
+    case ShownLayer::normal:
+        return DisplayLayer::normal;
+    case ShownLayer::depth:
+        return DisplayLayer::depth;
+    case ShownLayer::standard_error:
+        return DisplayLayer::standard_error;
+    case ShownLayer::samples:
+        return DisplayLayer::samples;
+    case ShownLayer::light_id:
+        return DisplayLayer::light_id;
+    case ShownLayer::reservoir_confidence:
+        return DisplayLayer::reservoir_m;
+    case ShownLayer::reservoir_weight:
+        return DisplayLayer::reservoir_w;
+    case ShownLayer::nonfinite:
+        return DisplayLayer::nonfinite;
     }
     return DisplayLayer::radiance;
 }
@@ -53,8 +63,8 @@ void choose_ramp(const ShownState& shown, const std::optional<DisplayRange>& see
 
 }  // namespace
 
-DisplayRequest choose_display(const ShownState& shown, const DeviceFilm& cpu, const DeviceFilm& vulkan, std::uint32_t width,
-                              const std::optional<DisplayRange>& seen, Legend& legend) {
+DisplayRequest choose_display(const ShownState& shown, const DeviceFilm& cpu, const DeviceFilm& vulkan,
+                              std::uint32_t width, const std::optional<DisplayRange>& seen, Legend& legend) {
     DisplayRequest request;
     const bool both = shown.panel == ShownPanel::split || shown.panel == ShownPanel::difference;
     request.left = shown.panel == ShownPanel::vulkan ? vulkan : cpu;

@@ -9,9 +9,9 @@
 
 namespace diptych::app {
 
-/// The request that shows `shown` in a picture of that width in pixels; `legend` becomes what its ramp means. `seen` is where the numbers of the
-/// frame before lay.
-DisplayRequest choose_display(const ShownState& shown, const DeviceFilm& cpu, const DeviceFilm& vulkan, std::uint32_t width,
-                              const std::optional<DisplayRange>& seen, Legend& legend);
+/// The request that shows `shown` in a picture of that width in pixels; `legend` becomes what its ramp means. `seen` is
+/// where the numbers of the frame before lay.
+DisplayRequest choose_display(const ShownState& shown, const DeviceFilm& cpu, const DeviceFilm& vulkan,
+                              std::uint32_t width, const std::optional<DisplayRange>& seen, Legend& legend);
 
 }  // namespace diptych::app

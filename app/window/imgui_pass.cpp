@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::intptr_t font_texture = 2;
 
-constexpr vk::ImageSubresourceRange whole{.aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1};
+constexpr vk::ImageSubresourceRange whole{
+    .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1};
 
 struct Push {
     float scale[2];
@@ -58,14 +59,16 @@ vk::raii::RenderPass make_render_pass(const Gpu& gpu, vk::Format format) {
 /// For set-up work: all before it comes before all after it.
 void change_layout(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from, vk::ImageLayout to) {
     const vk::ImageMemoryBarrier barrier{.srcAccessMask = vk::AccessFlagBits::eMemoryWrite,
-                                         .dstAccessMask = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite,
+                                         .dstAccessMask =
+                                             vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite,
                                          .oldLayout = from,
                                          .newLayout = to,
                                          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                          .image = image,
                                          .subresourceRange = whole};
-    commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands, {}, {}, {}, barrier);
+    commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands, {}, {},
+                             {}, barrier);
 }
 
 /// Grows `buffer` to `size` with room to spare; the frame that used it is over.
@@ -132,10 +135,10 @@ void ImguiPass::make_pipeline() {
         {.setLayoutCount = 1, .pSetLayouts = &*set_layout_, .pushConstantRangeCount = 1, .pPushConstantRanges = &push});
     const vk::raii::ShaderModule vertex = make_module(gpu_, "imgui.vert");
     const vk::raii::ShaderModule fragment = make_module(gpu_, "imgui.frag");
-    const std::array stages = {
-        vk::PipelineShaderStageCreateInfo{.stage = vk::ShaderStageFlagBits::eVertex, .module = *vertex, .pName = "main"},
-        vk::PipelineShaderStageCreateInfo{
-            .stage = vk::ShaderStageFlagBits::eFragment, .module = *fragment, .pName = "main"}};
+    const std::array stages = {vk::PipelineShaderStageCreateInfo{
+                                   .stage = vk::ShaderStageFlagBits::eVertex, .module = *vertex, .pName = "main"},
+                               vk::PipelineShaderStageCreateInfo{
+                                   .stage = vk::ShaderStageFlagBits::eFragment, .module = *fragment, .pName = "main"}};
     const vk::VertexInputBindingDescription binding{.binding = 0, .stride = sizeof(ImDrawVert)};
     const std::array attributes = {
         vk::VertexInputAttributeDescription{
@@ -161,7 +164,8 @@ void ImguiPass::make_pipeline() {
                                                      .colorWriteMask = Part::eR | Part::eG | Part::eB | Part::eA};
     const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = 1, .pAttachments = &over};
     const std::array dynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
-    const vk::PipelineDynamicStateCreateInfo changing{.dynamicStateCount = dynamic.size(), .pDynamicStates = dynamic.data()};
+    const vk::PipelineDynamicStateCreateInfo changing{.dynamicStateCount = dynamic.size(),
+                                                      .pDynamicStates = dynamic.data()};
     pipeline_ = gpu_.device.createGraphicsPipeline(nullptr, {.stageCount = stages.size(),
                                                              .pStages = stages.data(),
                                                              .pVertexInputState = &input,
@@ -184,12 +188,13 @@ void ImguiPass::upload_font() {
     const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
     const vk::Extent3D extent{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), 1};
     constexpr vk::Format format = vk::Format::eR8G8B8A8Unorm;
-    font_image_ = gpu_.device.createImage({.imageType = vk::ImageType::e2D,
-                                           .format = format,
-                                           .extent = extent,
-                                           .mipLevels = 1,
-                                           .arrayLayers = 1,
-                                           .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+    font_image_ =
+        gpu_.device.createImage({.imageType = vk::ImageType::e2D,
+                                 .format = format,
+                                 .extent = extent,
+                                 .mipLevels = 1,
+                                 .arrayLayers = 1,
+                                 .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
     font_memory_ = allocate_image(gpu_, font_image_);
     font_view_ = gpu_.device.createImageView(
         {.image = *font_image_, .viewType = vk::ImageViewType::e2D, .format = format, .subresourceRange = whole});
@@ -199,9 +204,11 @@ void ImguiPass::upload_font() {
     run_commands(gpu_, [&](const vk::raii::CommandBuffer& commands) {
         change_layout(commands, *font_image_, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
         const vk::BufferImageCopy region{
-            .imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1}, .imageExtent = extent};
+            .imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1},
+            .imageExtent = extent};
         commands.copyBufferToImage(*staging.handle, *font_image_, vk::ImageLayout::eTransferDstOptimal, region);
-        change_layout(commands, *font_image_, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eShaderReadOnlyOptimal);
+        change_layout(commands, *font_image_, vk::ImageLayout::eTransferDstOptimal,
+                      vk::ImageLayout::eShaderReadOnlyOptimal);
     });
     point_to(font_, *font_view_);
 }
@@ -244,8 +251,8 @@ void ImguiPass::upload(Frame& frame, const ImDrawData& drawn) const {
     }
 }
 
-void ImguiPass::record(const vk::raii::CommandBuffer& commands, std::size_t target, std::size_t number, vk::ImageView picture,
-                       const ImDrawData& drawn) {
+void ImguiPass::record(const vk::raii::CommandBuffer& commands, std::size_t target, std::size_t number,
+                       vk::ImageView picture, const ImDrawData& drawn) {
     Frame& frame = frames_[number];
     if (frame.shown != picture) {
         frame.shown = picture;
@@ -289,8 +296,10 @@ void ImguiPass::draw(const vk::raii::CommandBuffer& commands, const Frame& frame
             if (scissor.extent.width == 0 || scissor.extent.height == 0 || command.UserCallback != nullptr) {
                 continue;
             }
-            const bool shows_picture = command.GetTexID() == (ImTextureID)picture_texture;  // a pointer or a number, by version
-            commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, shows_picture ? *frame.picture : *font_, {});
+            const bool shows_picture =
+                command.GetTexID() == (ImTextureID)picture_texture;  // a pointer or a number, by version
+            commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0,
+                                        shows_picture ? *frame.picture : *font_, {});
             commands.setScissor(0, scissor);
             commands.drawIndexed(command.ElemCount, 1, first_index + command.IdxOffset,
                                  first_vertex + static_cast<std::int32_t>(command.VtxOffset), 0);

@@ -1,4 +1,5 @@
-// Dear ImGui's triangles on the swapchain's images: our own, since Debian's Vulkan half of it wants a loader that is linked.
+// Dear ImGui's triangles on the swapchain's images: our own, since Debian's Vulkan half of it wants a loader that is
+// linked.
 #pragma once
 
 #include <array>
@@ -18,14 +19,16 @@ inline constexpr std::intptr_t picture_texture = 1;
 
 class ImguiPass {
 public:
-    /// Draws into images of `format`. Uploads the font atlas of the current ImGui context, which must be built. Throws Error.
+    /// Draws into images of `format`. Uploads the font atlas of the current ImGui context, which must be built. Throws
+    /// Error.
     ImguiPass(const Gpu& gpu, vk::Format format);
 
     /// Draws into its images from now on. Nothing may be in flight.
     void set_targets(const Swapchain& swapchain);
 
     /// Draws over target number `target`, which it clears and leaves ready to be presented. `picture` is in the layout
-    /// eShaderReadOnlyOptimal and stays as long as the frame is in flight; the frame that had this number before is over.
+    /// eShaderReadOnlyOptimal and stays as long as the frame is in flight; the frame that had this number before is
+    /// over.
     void record(const vk::raii::CommandBuffer& commands, std::size_t target, std::size_t frame, vk::ImageView picture,
                 const ImDrawData& drawn);
 

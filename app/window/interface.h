@@ -20,8 +20,8 @@ namespace diptych::app {
 
 /// What one panel has to tell.
 struct PanelFacts {
-    const char* title = "";             // "CPU", "Vulkan"
-    ImVec4 color{};                     // that it has wherever both stand side by side
+    const char* title = "";                 // "CPU", "Vulkan"
+    ImVec4 color{};                         // that it has wherever both stand side by side
     std::shared_ptr<const PanelShot> shot;  // null where there is no such panel
     const ErrorHistory* history = nullptr;
     bool shown = false;
@@ -51,8 +51,9 @@ struct Wishes {
     bool save_exr = false;
     bool copy_command = false;
     bool reset_camera = false;
+    bool focus = false;  // on what is under the pointer
     bool quit = false;
-    std::optional<int> camera;  // of the scene
+    std::optional<int> camera;                   // of the scene
     std::optional<std::uint32_t> replay_sample;  // another of the pixel that is replayed
 };
 
@@ -66,7 +67,7 @@ struct InterfaceState {
     std::vector<Message> messages;
     Wishes wishes;
     std::map<std::string, ImVec2> places;  // where the middles of named controls are, for the log
-    bool dividing = false;  // the split's line is being dragged
+    bool dividing = false;                 // the split's line is being dragged
 };
 
 /// All of it, between ImGui::NewFrame and ImGui::Render.

@@ -50,8 +50,8 @@ void draw_animation_bar(const Theme& theme, ViewState& state, const InterfaceSta
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - speed_width - ImGui::GetStyle().ItemSpacing.x);
     double least = 0;
     const std::string format = fmt::format("%.2f / {:.2f} s", state.animation.duration);
-    if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &state.rendered.time, &least, &state.animation.duration, format.c_str(),
-                            ImGuiSliderFlags_AlwaysClamp)) {
+    if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &state.rendered.time, &least, &state.animation.duration,
+                            format.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
         state.animation.playing = false;
     }
     ImGui::SameLine();

@@ -12,8 +12,8 @@ namespace diptych::app {
 namespace {
 
 constexpr std::array panel_names = {"Vulkan", "CPU", "Split", "Difference"};
-constexpr std::array layer_names = {"Radiance", "Albedo", "Normal", "Depth", "Standard error", "Samples", "Light", "Reservoir M", "Reservoir W",
-                                    "Non-finite"};
+constexpr std::array layer_names = {"Radiance", "Albedo", "Normal",      "Depth",       "Standard error",
+                                    "Samples",  "Light",  "Reservoir M", "Reservoir W", "Non-finite"};
 constexpr std::array integrator_names = {"brdf", "direct", "path", "ris", "restir"};
 
 using Places = std::map<std::string, ImVec2>;
@@ -26,7 +26,8 @@ void mark(Places& places, const std::string& name) {
 }
 
 template <typename Enum, std::size_t Count>
-void drop_down(const char* name, const std::array<const char*, Count>& names, Enum& chosen, float width, const char* help, Places& places) {
+void drop_down(const char* name, const std::array<const char*, Count>& names, Enum& chosen, float width,
+               const char* help, Places& places) {
     const auto index = static_cast<std::size_t>(chosen);
     ImGui::SetNextItemWidth(width);
     ImGui::PushID(name);
@@ -104,10 +105,11 @@ void draw_top_bar(const Theme& theme, const InterfaceFacts& facts, ViewState& st
     const bool wide = is_wide(theme, ImGui::GetIO().DisplaySize);
     choose_panel(theme, facts, state.shown, !wide, interface.places);
     ImGui::SameLine();
-    drop_down("layer", layer_names, state.shown.layer, theme.units(34), "Which layer of the picture  (L)", interface.places);
-    ImGui::SameLine();
-    drop_down("integrator", integrator_names, state.rendered.request.settings.integrator, theme.units(22), "How light is found  (I)",
+    drop_down("layer", layer_names, state.shown.layer, theme.units(34), "Which layer of the picture  (L)",
               interface.places);
+    ImGui::SameLine();
+    drop_down("integrator", integrator_names, state.rendered.request.settings.integrator, theme.units(22),
+              "How light is found  (I)", interface.places);
     ImGui::SameLine(0, 0);
     ButtonsFromRight button(ImGui::GetCursorPosX());
     if (button("Keys", "Keys and mouse  (H)")) {

@@ -17,9 +17,10 @@ void draw_divider(const Theme& theme, ViewState& state, InterfaceState& interfac
     ImGui::SetNextWindowPos({x - reach, 0});
     ImGui::SetNextWindowSize({2 * reach, size.y});
     ImGui::Begin("divider", nullptr,
-                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus);
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::InvisibleButton("line", {2 * reach, size.y});
     const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
     interface.dividing = ImGui::IsItemActive();
@@ -42,8 +43,9 @@ void draw_divider(const Theme& theme, ViewState& state, InterfaceState& interfac
     const auto tag = [&](const char* text, const ImVec4& color, bool left) {
         const ImVec2 room = ImGui::CalcTextSize(text);
         const float at = left ? x - room.x - theme.units(5) : x + theme.units(5);
-        draw.AddRectFilled({at - theme.units(2), y - theme.units(1)}, {at + room.x + theme.units(2), y + room.y + theme.units(1)},
-                           packed(colors::panel), theme.units(1));
+        draw.AddRectFilled({at - theme.units(2), y - theme.units(1)},
+                           {at + room.x + theme.units(2), y + room.y + theme.units(1)}, packed(colors::panel),
+                           theme.units(1));
         draw.AddText({at, y}, packed(color), text);
     };
     tag("CPU", colors::cpu, true);

@@ -34,7 +34,8 @@ std::string relmse_text(const Shot& shot) {
 }
 
 std::string size_text(const Shot& shot) {
-    return shot.divisor > 1 ? fmt::format("{}×{} (1/{})", shot.width, shot.height, shot.divisor) : fmt::format("{}×{}", shot.width, shot.height);
+    return shot.divisor > 1 ? fmt::format("{}×{} (1/{})", shot.width, shot.height, shot.divisor)
+                            : fmt::format("{}×{}", shot.width, shot.height);
 }
 
 const std::vector<Figure>& figures() {
@@ -108,7 +109,8 @@ void draw_passes(const Theme& theme, const std::vector<const PanelFacts*>& panel
         for (const PanelFacts* panel : panels) {
             ImGui::TableNextColumn();
             const auto& passes = panel->shot->passes;
-            const auto found = std::find_if(passes.begin(), passes.end(), [&](const PassTime& pass) { return pass.pass == name; });
+            const auto found =
+                std::find_if(passes.begin(), passes.end(), [&](const PassTime& pass) { return pass.pass == name; });
             right_aligned(found == passes.end() ? "–" : fmt::format("{:.2f} ms", found->seconds * 1000));
         }
     }
@@ -117,10 +119,14 @@ void draw_passes(const Theme& theme, const std::vector<const PanelFacts*>& panel
 
 ImVec4 color_of(Agreement agreement) {
     switch (agreement) {
-        case Agreement::agree: return colors::good;
-        case Agreement::doubtful: return colors::doubtful;
-        case Agreement::differ: return colors::bad;
-        default: return colors::muted;
+    case Agreement::agree:
+        return colors::good;
+    case Agreement::doubtful:
+        return colors::doubtful;
+    case Agreement::differ:
+        return colors::bad;
+    default:
+        return colors::muted;
     }
 }
 
@@ -137,7 +143,8 @@ void draw_light(const Theme& theme, const VerificationLight& light) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(light.text.c_str());
     ImGui::PopTextWrapPos();
-    explain("The running z between the image means of both panels, which draw from different seeds: Welch's test of the worst channel. "
+    explain("The running z between the image means of both panels, which draw from different seeds: Welch's test of "
+            "the worst channel. "
             "Below 3 they agree.");
 }
 

@@ -34,7 +34,9 @@ void draw_help(const Theme& theme, InterfaceState& interface) {
     ImGui::SetNextWindowSize(size);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, {0, 0, 0, 0.55F});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
-    ImGui::Begin("behind help", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
+    ImGui::Begin("behind help", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNav);
     ImGui::End();
     ImGui::PopStyleVar();
     ImGui::PopStyleColor();
@@ -45,7 +47,8 @@ void draw_help(const Theme& theme, InterfaceState& interface) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.units(5), theme.units(4)});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, {colors::panel.x, colors::panel.y, colors::panel.z, 0.97F});
     ImGui::Begin("help", nullptr,
-                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings);
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                     ImGuiWindowFlags_NoSavedSettings);
     const bool wide = width > theme.units(150);
     if (wide) {
         ImGui::BeginTable("columns", 2, ImGuiTableFlags_SizingStretchProp);
@@ -74,7 +77,9 @@ void draw_help(const Theme& theme, InterfaceState& interface) {
         ImGui::EndTable();
     }
     // A click beside it closes it.
-    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_RootAndChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) {
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
+        !ImGui::IsWindowHovered(ImGuiHoveredFlags_RootAndChildWindows |
+                                ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) {
         interface.help = false;
     }
     ImGui::End();

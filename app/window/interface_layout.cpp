@@ -20,7 +20,9 @@ Layout layout_of(const Theme& theme, const InterfaceState& interface, ImVec2 siz
     const float wide = std::min(2 * theme.panel, size.x - 3 * gap - (interface.settings ? panel : 0));
     layout.replay = {{size.x - gap - wide, top}, {wide, height}};
     const float left = interface.settings ? layout.settings.at.x + panel + gap : gap;
-    const float right = interface.replay ? layout.replay.at.x - gap : interface.figures ? layout.figures.at.x - gap : size.x - gap;
+    const float right = interface.replay    ? layout.replay.at.x - gap
+                        : interface.figures ? layout.figures.at.x - gap
+                                            : size.x - gap;
     layout.middle = {{left, top}, {std::max(right - left, theme.units(20)), height}};
     return layout;
 }
@@ -30,8 +32,8 @@ void begin_panel(const char* name, const Box& box) {
     ImGui::SetNextWindowSizeConstraints({box.size.x, 0}, box.size);
     ImGui::SetNextWindowSize({box.size.x, 0});
     ImGui::Begin(name, nullptr,
-                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
 }
 
 }  // namespace diptych::app

@@ -29,15 +29,17 @@ void draw_legend(const Theme& theme, const Legend& legend, const ViewState& stat
     const float pad = theme.units(2);
     const ImVec2 size{std::min(theme.units(64), middle.size.x - 4 * pad), theme.units(3)};
     const float line = ImGui::GetTextLineHeight();
-    const ImVec2 at{std::round(middle.at.x + (middle.size.x - size.x) / 2), std::round(middle.at.y + middle.size.y - above - size.y - line - 2 * pad)};
+    const ImVec2 at{std::round(middle.at.x + (middle.size.x - size.x) / 2),
+                    std::round(middle.at.y + middle.size.y - above - size.y - line - 2 * pad)};
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    draw.AddRectFilled({at.x - 2 * pad, at.y - pad}, {at.x + size.x + 2 * pad, at.y + size.y + line + 2 * pad}, packed(colors::panel), theme.units(2));
+    draw.AddRectFilled({at.x - 2 * pad, at.y - pad}, {at.x + size.x + 2 * pad, at.y + size.y + line + 2 * pad},
+                       packed(colors::panel), theme.units(2));
     constexpr int steps = 64;
     for (int i = 0; i < steps; ++i) {
         const float a = static_cast<float>(i) / steps;
         const float b = static_cast<float>(i + 1) / steps;
-        draw.AddRectFilledMultiColor({at.x + size.x * a, at.y}, {at.x + size.x * b, at.y + size.y}, color_at(legend, a), color_at(legend, b),
-                                     color_at(legend, b), color_at(legend, a));
+        draw.AddRectFilledMultiColor({at.x + size.x * a, at.y}, {at.x + size.x * b, at.y + size.y}, color_at(legend, a),
+                                     color_at(legend, b), color_at(legend, b), color_at(legend, a));
     }
     const float y = at.y + size.y + theme.units(0.5F);
     const std::string low = number_text(legend.difference ? -legend.high : legend.low, "");

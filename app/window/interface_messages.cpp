@@ -14,8 +14,8 @@ namespace {
 constexpr double note_seconds = 4;
 
 /// One line on a ground of its own, wrapped in the middle; true where it was closed.
-bool draw_message(const Theme& theme, const char* name, const std::string& text, const ImVec4& mark, bool closable, const Box& middle,
-                  float& y) {
+bool draw_message(const Theme& theme, const char* name, const std::string& text, const ImVec4& mark, bool closable,
+                  const Box& middle, float& y) {
     const float cross = closable ? theme.units(7) : 0;
     const float room = std::min(middle.size.x, theme.units(150)) - theme.units(8) - cross;
     const float text_width = std::min(ImGui::CalcTextSize(text.c_str(), nullptr, false, room).x + 1, room);
@@ -23,8 +23,9 @@ bool draw_message(const Theme& theme, const char* name, const std::string& text,
     ImGui::SetNextWindowPos({middle.at.x + (middle.size.x - width) / 2, y});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::Begin(name, nullptr,
-                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollbar);
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                     ImGuiWindowFlags_NoScrollbar);
     const ImVec2 at = ImGui::GetWindowPos();
     ImGui::SetCursorPosX(theme.units(4));
     ImGui::PushTextWrapPos(theme.units(4) + room + 1);
@@ -40,13 +41,15 @@ bool draw_message(const Theme& theme, const char* name, const std::string& text,
         const ImU32 color = packed(ImGui::IsItemHovered() ? colors::text : colors::muted);
         const float a = side * 0.3F;
         const float b = side * 0.7F;
-        ImGui::GetWindowDrawList()->AddLine({corner.x + a, corner.y + a}, {corner.x + b, corner.y + b}, color, 1.5F * theme.scale);
-        ImGui::GetWindowDrawList()->AddLine({corner.x + b, corner.y + a}, {corner.x + a, corner.y + b}, color, 1.5F * theme.scale);
+        ImGui::GetWindowDrawList()->AddLine({corner.x + a, corner.y + a}, {corner.x + b, corner.y + b}, color,
+                                            1.5F * theme.scale);
+        ImGui::GetWindowDrawList()->AddLine({corner.x + b, corner.y + a}, {corner.x + a, corner.y + b}, color,
+                                            1.5F * theme.scale);
         ImGui::PopID();
     }
     const float height = ImGui::GetWindowHeight();
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + theme.units(2)}, {at.x + theme.units(0.75F), at.y + height - theme.units(2)},
-                                              packed(mark));
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {at.x, at.y + theme.units(2)}, {at.x + theme.units(0.75F), at.y + height - theme.units(2)}, packed(mark));
     ImGui::End();
     y += height + theme.units(1.5F);
     return closed;
@@ -63,15 +66,17 @@ void draw_messages(const Theme& theme, const InterfaceFacts& facts, InterfaceSta
     const Box middle = layout_of(theme, interface, ImGui::GetIO().DisplaySize).middle;
     float y = interface.visible ? middle.at.y : theme.units(2);
     if (!facts.loading.empty()) {
-        draw_message(theme, "loading", "loading " + std::filesystem::path(facts.loading).filename().string() + " …", colors::accent, false,
-                     middle, y);
+        draw_message(theme, "loading", "loading " + std::filesystem::path(facts.loading).filename().string() + " …",
+                     colors::accent, false, middle, y);
     }
     for (const PanelFacts& panel : facts.panels) {
         if (panel.shown && panel.shot != nullptr && !panel.shot->busy.empty()) {
-            draw_message(theme, panel.title, fmt::format("{}: {} …", panel.title, panel.shot->busy), panel.color, false, middle, y);
+            draw_message(theme, panel.title, fmt::format("{}: {} …", panel.title, panel.shot->busy), panel.color, false,
+                         middle, y);
         }
     }
-    std::erase_if(interface.messages, [&](const Message& message) { return !message.error && message.until < facts.now; });
+    std::erase_if(interface.messages,
+                  [&](const Message& message) { return !message.error && message.until < facts.now; });
     for (std::size_t i = 0; i < interface.messages.size();) {
         const Message& message = interface.messages[i];
         const bool closed = draw_message(theme, fmt::format("message {}", i).c_str(), message.text,

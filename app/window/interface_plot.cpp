@@ -75,15 +75,19 @@ void draw_grid(const Theme& theme, const Axes& axes, ImVec2 at, ImVec2 size) {
         draw.AddLine({x, at.y}, {x, at.y + size.y}, line);
         const std::string label = decade_text(decade);
         const float width = theme.small->CalcTextSizeA(small, 1e9F, 0, label.c_str()).x;
-        draw.AddText(theme.small, small, {std::min(x - width / 2, at.x + size.x - width), at.y + size.y + theme.units(1)}, text, label.c_str());
+        draw.AddText(theme.small, small,
+                     {std::min(x - width / 2, at.x + size.x - width), at.y + size.y + theme.units(1)}, text,
+                     label.c_str());
     }
 }
 
-void draw_curve(const Theme& theme, const Axes& axes, const ErrorHistory& history, const ImVec4& color, ImVec2 at, ImVec2 size) {
+void draw_curve(const Theme& theme, const Axes& axes, const ErrorHistory& history, const ImVec4& color, ImVec2 at,
+                ImVec2 size) {
     std::vector<ImVec2> line;
     for (const ErrorPoint& point : history.points()) {
         if (point.relmse > 0 && point.spp > 0) {
-            line.push_back({at.x + size.x * axes.spp.place(point.spp), at.y + size.y * (1 - axes.error.place(point.relmse))});
+            line.push_back(
+                {at.x + size.x * axes.spp.place(point.spp), at.y + size.y * (1 - axes.error.place(point.relmse))});
         }
     }
     if (line.empty()) {
@@ -105,13 +109,16 @@ void draw_error_plot(const Theme& theme, const InterfaceFacts& facts) {
     const ImVec2 at{corner.x + left, corner.y + theme.units(2)};
     const Axes axes = axes_of(facts);
     ImGui::Dummy({width, size.y + below + theme.units(2)});
-    explain("Over samples a pixel, from the spread of each pixel's samples. Frames of restir that go on from one another tell none.");
+    explain("Over samples a pixel, from the spread of each pixel's samples. Frames of restir that go on from one "
+            "another tell none.");
     if (axes.empty) {
-        const bool chained = std::any_of(facts.panels.begin(), facts.panels.end(),
-                                         [](const PanelFacts& panel) { return panel.shown && panel.shot != nullptr && panel.shot->correlated; });
+        const bool chained = std::any_of(facts.panels.begin(), facts.panels.end(), [](const PanelFacts& panel) {
+            return panel.shown && panel.shot != nullptr && panel.shot->correlated;
+        });
         const char* text = chained ? "not known of restir's chains" : "not known yet";
         const ImVec2 room = ImGui::CalcTextSize(text);
-        ImGui::GetWindowDrawList()->AddText({corner.x + (width - room.x) / 2, corner.y + size.y / 2}, packed(colors::muted), text);
+        ImGui::GetWindowDrawList()->AddText({corner.x + (width - room.x) / 2, corner.y + size.y / 2},
+                                            packed(colors::muted), text);
         return;
     }
     draw_grid(theme, axes, at, size);

@@ -16,7 +16,8 @@ namespace {
 void draw_sampling(const Theme& theme, RenderSettings& settings) {
     slider(theme, "Depth", settings.max_depth, 0, 32, "Scattering events at most; 1 is emission and direct light");
     choice(theme, "BRDF", {"GGX", "Blinn-Phong"}, settings.brdf, "Microfacets of metallic-roughness materials");
-    choice(theme, "Sampler", {"independent", "Hammersley", "Sobol'"}, settings.sampler, "Where random numbers come from");
+    choice(theme, "Sampler", {"independent", "Hammersley", "Sobol'"}, settings.sampler,
+           "Where random numbers come from");
     if (settings.integrator == Integrator::path) {
         choice(theme, "MIS", {"power", "balance"}, settings.mis, "Weights between light and material sampling");
     }
@@ -25,7 +26,8 @@ void draw_sampling(const Theme& theme, RenderSettings& settings) {
 void draw_light(const Theme& theme, const InterfaceFacts& facts, RenderRequest& request) {
     const bool none = facts.scene == nullptr || facts.scene->scene->environment.kind == EnvironmentKind::none;
     ImGui::BeginDisabled(none);
-    logarithmic_slider(theme, "Sky", request.environment_scale, 0, 100, "× %.3g", "Factor on the light from infinity. Drop a .hdr or .exr to replace it");
+    logarithmic_slider(theme, "Sky", request.environment_scale, 0, 100, "× %.3g",
+                       "Factor on the light from infinity. Drop a .hdr or .exr to replace it");
     slider(theme, "Rotation", request.environment_rotation, -180, 180, "%.0f°", "Turns the sky about the vertical");
     ImGui::EndDisabled();
     bool shines = request.sun.has_value();
@@ -33,7 +35,8 @@ void draw_light(const Theme& theme, const InterfaceFacts& facts, RenderRequest& 
         request.sun = shines ? std::optional<Sun>(Sun{}) : std::nullopt;
     }
     if (request.sun) {
-        slider(theme, "Azimuth", request.sun->azimuth, 0, 360, "%.0f°", "Clockwise from above, from the middle of the sky");
+        slider(theme, "Azimuth", request.sun->azimuth, 0, 360, "%.0f°",
+               "Clockwise from above, from the middle of the sky");
         slider(theme, "Elevation", request.sun->elevation, -10, 90, "%.0f°", "Above the horizon");
         logarithmic_slider(theme, "Irradiance", request.sun->irradiance, 0.01, 1000, "%.3g W/m²");
     }
@@ -41,8 +44,10 @@ void draw_light(const Theme& theme, const InterfaceFacts& facts, RenderRequest& 
 
 void draw_display(const Theme& theme, ShownState& shown) {
     slider(theme, "Exposure", shown.exposure, -10, 10, "%+.2f EV", "Powers of two  ( [ and ] )");
-    choice(theme, "Tone map", {"none", "exponential", "Uncharted 2", "ACES", "PBR neutral"}, shown.tonemap, "From radiance to display  (T)");
-    const bool colored = shown.layer == ShownLayer::radiance || shown.layer == ShownLayer::albedo || shown.layer == ShownLayer::normal;
+    choice(theme, "Tone map", {"none", "exponential", "Uncharted 2", "ACES", "PBR neutral"}, shown.tonemap,
+           "From radiance to display  (T)");
+    const bool colored =
+        shown.layer == ShownLayer::radiance || shown.layer == ShownLayer::albedo || shown.layer == ShownLayer::normal;
     if (!colored || shown.panel == ShownPanel::difference) {
         bool found = shown.layer_scale == 0;
         if (toggle(theme, "Auto scale", found, "What is shown as full is found from the picture")) {
@@ -72,16 +77,20 @@ void draw_camera(const Theme& theme, const InterfaceFacts& facts, ViewState& sta
         }
         ImGui::EndCombo();
     }
-    const double diagonal = is_empty(facts.scene->bounds) ? 1 : std::max(glm::length(facts.scene->bounds.hi - facts.scene->bounds.lo), 1e-6);
+    const double diagonal = is_empty(facts.scene->bounds)
+                                ? 1
+                                : std::max(glm::length(facts.scene->bounds.hi - facts.scene->bounds.lo), 1e-6);
     const double distance = glm::length(state.pivot - glm::dvec3(camera.camera_to_world[3]));
     if (camera.orthographic) {
-        logarithmic_slider(theme, "Height", camera.orthographic_height, diagonal * 1e-3, diagonal * 10, "%.3g m", "Of the whole view");
+        logarithmic_slider(theme, "Height", camera.orthographic_height, diagonal * 1e-3, diagonal * 10, "%.3g m",
+                           "Of the whole view");
     } else {
         double degrees = camera.vertical_fov * 180 / glm::pi<double>();
         if (slider(theme, "Field of view", degrees, 1, 150, "%.1f°", "Vertical")) {
             set_field_of_view(camera, degrees * glm::pi<double>() / 180, distance);
         }
-        logarithmic_slider(theme, "Aperture", camera.lens_radius, 0, diagonal * 0.1, "%.4g m", "Radius of the lens; 0 is a pinhole");
+        logarithmic_slider(theme, "Aperture", camera.lens_radius, 0, diagonal * 0.1, "%.4g m",
+                           "Radius of the lens; 0 is a pinhole");
         ImGui::BeginDisabled(camera.lens_radius <= 0);
         logarithmic_slider(theme, "Focus", camera.focus_distance, diagonal * 1e-3, diagonal * 10, "%.3g m",
                            "Distance in focus. F focuses on what is under the pointer");
@@ -99,9 +108,10 @@ void draw_camera(const Theme& theme, const InterfaceFacts& facts, ViewState& sta
 void draw_resampling(const Theme& theme, ResamplingSettings& resampling, bool reuses) {
     slider(theme, "Light draws", resampling.light_candidates, 0, 64, "Candidates from the lights, a pixel and frame");
     toggle(theme, "BSDF draw", resampling.bsdf_candidate, "One more candidate, from the material");
-    choice(theme, "MIS", {"pairwise", "balance", "1/Z", "1/M, biased"}, resampling.mis, "Weights between what is resampled");
-    choice(theme, "Visibility", {"when shading", "in the target", "initial, biased", "final, biased"}, resampling.visibility,
-           "Where shadow rays count");
+    choice(theme, "MIS", {"pairwise", "balance", "1/Z", "1/M, biased"}, resampling.mis,
+           "Weights between what is resampled");
+    choice(theme, "Visibility", {"when shading", "in the target", "initial, biased", "final, biased"},
+           resampling.visibility, "Where shadow rays count");
     if (!reuses) {
         return;
     }

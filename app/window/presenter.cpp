@@ -78,7 +78,8 @@ bool Presenter::draw(const DisplayRequest& request, vk::Extent2D size, const ImD
     SurfaceResult result = slot.begin(*swapchain_);
     if (result == SurfaceResult::ok || result == SurfaceResult::suboptimal) {
         stale_ = result == SurfaceResult::suboptimal;
-        range_ = shown_range(picture_, static_cast<std::uint32_t>(number));  // of the slot's last frame, which has ended
+        range_ =
+            shown_range(picture_, static_cast<std::uint32_t>(number));  // of the slot's last frame, which has ended
         requests_[number] = request;
         record_display(slot.commands(), display_, picture_, request, static_cast<std::uint32_t>(number));
         interface_->record(slot.commands(), slot.image(), number, *picture_.view, interface);

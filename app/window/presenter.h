@@ -15,14 +15,15 @@ namespace diptych::app {
 
 class Presenter {
 public:
-    /// The device was opened with surface_extensions and to present. Throws NoDevice where it cannot show anything in this window.
+    /// The device was opened with surface_extensions and to present. Throws NoDevice where it cannot show anything in
+    /// this window.
     Presenter(std::shared_ptr<Gpu> gpu, const Window& window);
     ~Presenter();
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    /// Shows one frame of that size in pixels; false where the window had no place for it, which may pass: whatever has to be made anew has
-    /// been. Throws DeviceLost.
+    /// Shows one frame of that size in pixels; false where the window had no place for it, which may pass: whatever has
+    /// to be made anew has been. Throws DeviceLost.
     bool draw(const DisplayRequest& request, vk::Extent2D size, const ImDrawData& interface);
 
     /// Where the numbers of a frame shown of late lay; none where none were shown.

@@ -7,11 +7,11 @@ namespace diptych::app {
 
 /// Lengths in units of the window, colours as display values.
 struct Theme {
-    float scale = 1;      // 2 on a display of twice the usual density
-    float unit = 4;       // all spaces are multiples of it
-    float label = 96;     // width of a column of labels
-    float panel = 264;    // width of a side panel
-    float bar = 44;       // height of the top bar
+    float scale = 1;    // 2 on a display of twice the usual density
+    float unit = 4;     // all spaces are multiples of it
+    float label = 96;   // width of a column of labels
+    float panel = 264;  // width of a side panel
+    float bar = 44;     // height of the top bar
     ImFont* body = nullptr;
     ImFont* strong = nullptr;  // headings and figures that matter
     ImFont* small = nullptr;   // units and notes
@@ -37,8 +37,8 @@ inline const ImVec4 cpu{0.96F, 0.67F, 0.36F, 1};
 inline const ImVec4 vulkan{0.46F, 0.78F, 0.96F, 1};
 }  // namespace colors
 
-/// Fonts and style of the current context at that scale; the font atlas is built anew, for a framebuffer of `ratio` pixels a unit of the
-/// window.
+/// Fonts and style of the current context at that scale; the font atlas is built anew, for a framebuffer of `ratio`
+/// pixels a unit of the window.
 Theme apply_theme(float scale, float ratio);
 
 }  // namespace diptych::app

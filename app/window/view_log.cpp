@@ -72,8 +72,12 @@ void ViewLog::follow(const InterfaceFacts& facts, const ViewState& state, const 
         }
         const PanelShot& shot = *facts.panels[i].shot;
         Seen& seen = seen_[i];
-        const nlohmann::ordered_json which = {{"panel", shot.backend}, {"version", shot.version}, {"width", shot.width},
-                                              {"height", shot.height}, {"divisor", shot.divisor}, {"spp", shot.spp},
+        const nlohmann::ordered_json which = {{"panel", shot.backend},
+                                              {"version", shot.version},
+                                              {"width", shot.width},
+                                              {"height", shot.height},
+                                              {"divisor", shot.divisor},
+                                              {"spp", shot.spp},
                                               {"integrator", diptych::name_of(shot.state.request.settings.integrator)},
                                               {"scene", shot.state.scene}};
         if (shot.version != seen.version || shot.divisor != seen.divisor) {

@@ -20,8 +20,8 @@ public:
     /// One line, at once: {"event": ..., "seconds": ...} and what `details` holds.
     void write(const char* event, nlohmann::ordered_json details = nlohmann::ordered_json::object());
 
-    /// Once a frame: what has changed since the last. Events: integrator, panel, layer, resized, applied (a version seen on a panel), spp (at
-    /// 1, 2, 4, … of a picture), placed (a named control that stands somewhere else).
+    /// Once a frame: what has changed since the last. Events: integrator, panel, layer, resized, applied (a version
+    /// seen on a panel), spp (at 1, 2, 4, … of a picture), placed (a named control that stands somewhere else).
     void follow(const InterfaceFacts& facts, const ViewState& state, const InterfaceState& interface, double now);
 
 private:

@@ -4,7 +4,6 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_impl_glfw.h>
 
 #include <atomic>
 #include <chrono>
@@ -15,18 +14,20 @@
 #include "backend/cpu_renderer.h"
 #include "command.h"
 #include "error.h"
-#include "interrupt.h"
 #include "image/image_file.h"
-#include "render_picture.h"
+#include "image/tonemap_image.h"
+#include "interrupt.h"
 #include "validation.h"
 #include "view/frame_loop.h"
 #include "view/invalidation.h"
 #include "vulkan_renderer.h"
 #include "window/camera_hand.h"
 #include "window/display_choice.h"
-#include "window/picture_files.h"
+#include "window/film_source.h"
+#include "window/imgui_context.h"
+#include "window/picture_saver.h"
 #include "window/presenter.h"
-#include "window/shortcuts.h"
+#include "window/view_commands.h"
 #include "window/view_log.h"
 
 namespace diptych::app {
@@ -38,22 +39,6 @@ constexpr double longest_wait = 0.25;  // seconds between frames while nothing h
 double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-/// Dear ImGui on a window, while it lives.
-class ImguiContext {
-public:
-    explicit ImguiContext(const Window& window) {
-        ImGui::CreateContext();
-        ImGui::GetIO().IniFilename = nullptr;
-        ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
-    }
-    ~ImguiContext() {
-        ImGui_ImplGlfw_Shutdown();
-        ImGui::DestroyContext();
-    }
-    ImguiContext(const ImguiContext&) = delete;
-    ImguiContext& operator=(const ImguiContext&) = delete;
-};
 
 GpuRequest gpu_request(const RenderRequest& request) {
     return {.device = request.device,
@@ -70,6 +55,10 @@ RendererFactory cpu_factory(int threads) {
     return [threads](const PackedScene& packed) { return make_cpu_renderer(packed, threads); };
 }
 
+std::string title_of(const std::string& scene) {
+    return "diptych – " + std::filesystem::path(scene).filename().string();
+}
+
 class ViewWindow {
 public:
     ViewWindow(const WindowOptions& options, LoadedScene scene);
@@ -78,23 +67,24 @@ public:
     bool run();
 
 private:
+    void open_device();
     void begin_loop(LoadedScene scene);
     void read_input(double timeout);
-    void rescale();
-    void run_command(Command command);
     void take_drops();
     void grant_wishes();
     void move_camera(double seconds);
     void fit_film();
     InterfaceFacts facts() const;
+    double await_frame();
+    void draw_widgets(double passed);
+    void step();
     void draw();
     void save_picture();
     void save_radiance();
-    void take_saved();
+    void take_answers();
     void recover();
     void say(const std::string& text);
     void report(const std::string& text);
-    DeviceFilm film_of(Panel panel);
     Panel main_panel() const;
     ViewState& state() { return loop_->state(); }
 
@@ -103,39 +93,38 @@ private:
     ViewLog log_;
     Window window_;
     ImguiContext imgui_;
-    Theme theme_;
     std::shared_ptr<Gpu> gpu_;
     std::unique_ptr<Presenter> presenter_;
-    std::unique_ptr<FilmUploader> uploader_;
+    std::unique_ptr<FilmSource> films_;
+    std::atomic<bool> news_ = true;  // a panel has something new
     std::unique_ptr<FrameLoop> loop_;
-    std::shared_ptr<const Film> uploaded_;  // that the uploader's film shows
-    DeviceFilm uploaded_device_;
     CameraHand hand_;
     InterfaceState interface_;
     PixelReplay replay_;
     std::optional<shared::PathQuery> asked_;  // to be replayed
     Legend legend_;
     WindowInput input_;
-    std::atomic<bool> news_ = true;  // a panel has something new
-    std::future<KeptFilm> kept_;
-    std::filesystem::path kept_path_;
+    FilmSaver saver_;
     double last_frame_ = 0;
     double frame_seconds_ = 0;  // averaged
     bool settings_held_ = false;
     bool opened_ = false;
-    float interface_scale_ = 0;
-    float pixel_ratio_ = 1;
+    std::uint64_t generation_ = 1;  // of the scene that the title names
 };
 
 ViewWindow::ViewWindow(const WindowOptions& options, LoadedScene scene)
     : options_(options), request_(scene.request), log_(options.log),
-      window_("diptych – " + std::filesystem::path(request_.scene).filename().string(), options.width, options.height), imgui_(window_) {
+      window_(title_of(request_.scene), options.width, options.height), imgui_(window_) {
     input_ = window_.poll(0);
-    rescale();
+    imgui_.fit(input_, options_.interface_scale);
+    open_device();
+    begin_loop(std::move(scene));
+}
+
+void ViewWindow::open_device() {
     gpu_ = open_gpu(gpu_request(request_));
     presenter_ = std::make_unique<Presenter>(gpu_, window_);
-    uploader_ = std::make_unique<FilmUploader>(gpu_);
-    begin_loop(std::move(scene));
+    films_ = std::make_unique<FilmSource>(gpu_);
 }
 
 void ViewWindow::begin_loop(LoadedScene scene) {
@@ -169,27 +158,10 @@ void ViewWindow::report(const std::string& text) {
     log_.write("error", {{"text", text}});
 }
 
-void ViewWindow::rescale() {
-    int width = 0;
-    int height = 0;
-    glfwGetWindowSize(window_.handle(), &width, &height);
-    const float ratio = width > 0 && input_.width > 0 ? static_cast<float>(input_.width) / static_cast<float>(width) : pixel_ratio_;
-    const float scale = options_.interface_scale > 0 ? options_.interface_scale : input_.content_scale;
-    if (scale == interface_scale_ && ratio == pixel_ratio_) {
-        return;
-    }
-    interface_scale_ = scale;
-    pixel_ratio_ = ratio;
-    theme_ = apply_theme(scale / ratio, ratio);
-    if (presenter_ != nullptr) {
-        presenter_->reload_font();
-    }
-}
-
 void ViewWindow::read_input(double timeout) {
     input_ = window_.poll(timeout);
-    if (input_.width > 0) {
-        rescale();
+    if (imgui_.fit(input_, options_.interface_scale)) {
+        presenter_->reload_font();
     }
     // Text fields take keys first, as of the frame before.
     if (!ImGui::GetIO().WantTextInput) {
@@ -197,61 +169,19 @@ void ViewWindow::read_input(double timeout) {
             if (const std::optional<int> camera = camera_of(press)) {
                 interface_.wishes.camera = camera;
             } else if (const std::optional<Command> command = command_of(press)) {
-                run_command(*command);
+                run_command(*command, loop_->has(Panel::cpu) && loop_->has(Panel::vulkan), state(), interface_);
             }
         }
     }
     take_drops();
 }
 
-template <typename Enum>
-void step_through(Enum& value, int steps, int count) {
-    value = static_cast<Enum>((static_cast<int>(value) + steps + count) % count);
-}
-
-void ViewWindow::run_command(Command command) {
-    ViewState& view = state();
-    constexpr int layers = 10;
-    switch (command) {
-        case Command::hide_interface: interface_.visible = !interface_.visible; break;
-        case Command::help: interface_.help = !interface_.help; break;
-        case Command::next_panel:
-            if (loop_->has(Panel::cpu) && loop_->has(Panel::vulkan)) {
-                step_through(view.shown.panel, 1, 4);
-            }
-            break;
-        case Command::next_layer: step_through(view.shown.layer, 1, layers); break;
-        case Command::previous_layer: step_through(view.shown.layer, -1, layers); break;
-        case Command::next_integrator: step_through(view.rendered.request.settings.integrator, 1, 5); break;
-        case Command::previous_integrator: step_through(view.rendered.request.settings.integrator, -1, 5); break;
-        case Command::next_tonemap: step_through(view.shown.tonemap, 1, 5); break;
-        case Command::brighter: view.shown.exposure += 0.25; break;
-        case Command::darker: view.shown.exposure -= 0.25; break;
-        case Command::focus: {
-            const glm::dvec2 point = input_.cursor / glm::dvec2(std::max(input_.width, 1), std::max(input_.height, 1));
-            if (!focus_at(point, *loop_->shot(main_panel()), view)) {
-                say("nothing to focus on under the pointer");
-            }
-            break;
-        }
-        case Command::reset_camera: interface_.wishes.reset_camera = true; break;
-        case Command::play: view.animation.playing = !view.animation.playing && view.animation.duration > 0; break;
-        case Command::screenshot: interface_.wishes.screenshot = true; break;
-        case Command::save_exr: interface_.wishes.save_exr = true; break;
-        case Command::copy_command: interface_.wishes.copy_command = true; break;
-        case Command::close:
-            interface_.messages.clear();
-            interface_.help = interface_.replay = false;
-            break;
-        case Command::quit: interface_.wishes.quit = true; break;
-    }
-}
-
 void ViewWindow::take_drops() {
     for (const std::string& file : input_.dropped) {
         log_.write("dropped", {{"file", file}});
         std::string extension = std::filesystem::path(file).extension().string();
-        std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+        std::transform(extension.begin(), extension.end(), extension.begin(),
+                       [](unsigned char c) { return std::tolower(c); });
         if (extension == ".hdr" || extension == ".exr") {
             loop_->open_environment(file);
         } else {
@@ -262,7 +192,8 @@ void ViewWindow::take_drops() {
 
 Panel ViewWindow::main_panel() const {
     const ShownPanel shown = loop_->state().shown.panel;
-    return loop_->has(Panel::vulkan) && (shown == ShownPanel::vulkan || !loop_->has(Panel::cpu)) ? Panel::vulkan : Panel::cpu;
+    return loop_->has(Panel::vulkan) && (shown == ShownPanel::vulkan || !loop_->has(Panel::cpu)) ? Panel::vulkan
+                                                                                                 : Panel::cpu;
 }
 
 void ViewWindow::grant_wishes() {
@@ -277,8 +208,14 @@ void ViewWindow::grant_wishes() {
     if (wishes.reset_camera) {
         loop_->show_camera(state().rendered.request.settings.camera);
     }
+    if (wishes.focus) {
+        const glm::dvec2 point = input_.cursor / glm::dvec2(std::max(input_.width, 1), std::max(input_.height, 1));
+        if (!focus_at(point, *loop_->shot(main_panel()), state())) {
+            say("nothing to focus on under the pointer");
+        }
+    }
     if (wishes.copy_command) {
-        const std::string file = std::filesystem::path(request_.scene).stem().string() + ".exr";
+        const std::string file = std::filesystem::path(loop_->scene().request.scene).stem().string() + ".exr";
         const std::string command = loop_->repeat_command(main_panel(), file);
         window_.set_clipboard(command);
         say("copied: " + command);
@@ -312,22 +249,24 @@ void ViewWindow::save_picture() {
 }
 
 void ViewWindow::save_radiance() {
-    if (!kept_.valid()) {
-        kept_path_ = next_picture(options_.folder, loop_->scene().request.scene, ".exr");
-        kept_ = loop_->worker(main_panel())->film();
+    if (!saver_.waiting()) {
+        saver_.await(loop_->worker(main_panel())->film(),
+                     next_picture(options_.folder, loop_->scene().request.scene, ".exr"));
     }
 }
 
-void ViewWindow::take_saved() {
-    if (!kept_.valid() || kept_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-        return;
+/// What the panels were asked for and have answered.
+void ViewWindow::take_answers() {
+    if (replay_.update()) {
+        log_.write("replayed", {{"paths", replay_.result().paths.size()},
+                                {"parted", replay_.result().parting.has_value()},
+                                {"error", replay_.error()}});
     }
     try {
-        KeptFilm kept = kept_.get();
-        kept.request.output = kept_path_.string();
-        save_film(kept.film, kept.request, kept.outcome);
-        say("saved " + kept_path_.string());
-        log_.write("saved", {{"file", kept_path_.string()}});
+        if (const std::optional<std::filesystem::path> saved = saver_.save()) {
+            say("saved " + saved->string());
+            log_.write("saved", {{"file", saved->string()}});
+        }
     } catch (const Error& error) {
         report(error.what());
     }
@@ -335,9 +274,12 @@ void ViewWindow::take_saved() {
 
 void ViewWindow::move_camera(double seconds) {
     const ImGuiIO& io = ImGui::GetIO();
-    const auto axis = [&](int positive, int negative) { return (window_.holds(positive) ? 1.0 : 0.0) - (window_.holds(negative) ? 1.0 : 0.0); };
+    const auto axis = [&](int positive, int negative) {
+        return (window_.holds(positive) ? 1.0 : 0.0) - (window_.holds(negative) ? 1.0 : 0.0);
+    };
     const bool ctrl = window_.holds(GLFW_KEY_LEFT_CONTROL) || window_.holds(GLFW_KEY_RIGHT_CONTROL);
-    HandInput input{.window = &input_, .mouse_is_free = !io.WantCaptureMouse, .keys_are_free = !io.WantTextInput && !ctrl};
+    HandInput input{
+        .window = &input_, .mouse_is_free = !io.WantCaptureMouse, .keys_are_free = !io.WantTextInput && !ctrl};
     input.steps = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S)};
     input.fast = window_.holds(GLFW_KEY_LEFT_SHIFT) || window_.holds(GLFW_KEY_RIGHT_SHIFT);
     input.seconds = seconds;
@@ -345,7 +287,8 @@ void ViewWindow::move_camera(double seconds) {
     if (const std::optional<Click> click = hand_.click()) {
         const RenderSettings& settings = state().rendered.request.settings;
         const glm::dvec2 point = click->at / glm::dvec2(input_.width, input_.height);
-        const glm::uvec2 pixel{std::clamp(point.x * settings.width, 0.0, settings.width - 1.0), std::clamp(point.y * settings.height, 0.0, settings.height - 1.0)};
+        const glm::uvec2 pixel{std::clamp(point.x * settings.width, 0.0, settings.width - 1.0),
+                               std::clamp(point.y * settings.height, 0.0, settings.height - 1.0)};
         interface_.replay = true;
         asked_ = {pixel, 0};
         log_.write("replay", {{"pixel", {pixel.x, pixel.y}}});
@@ -380,32 +323,18 @@ InterfaceFacts ViewWindow::facts() const {
     return facts;
 }
 
-DeviceFilm ViewWindow::film_of(Panel panel) {
-    const std::shared_ptr<const PanelShot> shot = loop_->shot(panel);
-    if (shot == nullptr || !loop_->shows(panel)) {
-        return {};
-    }
-    if (shot->device_film != nullptr) {
-        return *shot->device_film;
-    }
-    if (shot->film == nullptr) {
-        return {};
-    }
-    if (uploaded_ != shot->film) {
-        uploaded_device_ = uploader_->upload(*shot->film);
-        uploaded_ = shot->film;
-    }
-    return uploaded_device_;
-}
-
 void ViewWindow::draw() {
     const DisplayRequest request =
-        choose_display(state().shown, film_of(Panel::cpu), film_of(Panel::vulkan), static_cast<std::uint32_t>(input_.width),
-                       presenter_->range(), legend_);
-    presenter_->draw(request, {static_cast<std::uint32_t>(input_.width), static_cast<std::uint32_t>(input_.height)}, *ImGui::GetDrawData());
+        choose_display(state().shown, films_->film_of(*loop_, Panel::cpu), films_->film_of(*loop_, Panel::vulkan),
+                       static_cast<std::uint32_t>(input_.width), presenter_->range(), legend_);
+    presenter_->draw(request, {static_cast<std::uint32_t>(input_.width), static_cast<std::uint32_t>(input_.height)},
+                     *ImGui::GetDrawData());
     if (!opened_) {
         opened_ = true;
-        log_.write("opened", {{"scene", loop_->scene().request.scene}, {"device", gpu_->name}, {"width", input_.width}, {"height", input_.height}});
+        log_.write("opened", {{"scene", loop_->scene().request.scene},
+                              {"device", gpu_->name},
+                              {"width", input_.width},
+                              {"height", input_.height}});
     }
 }
 
@@ -413,73 +342,82 @@ void ViewWindow::draw() {
 void ViewWindow::recover() {
     report(gpu_->name + ": the device was lost; going on with another");
     presenter_.reset();
-    uploader_.reset();
-    uploaded_.reset();
-    uploaded_device_ = {};
-    gpu_ = open_gpu(gpu_request(request_));
-    presenter_ = std::make_unique<Presenter>(gpu_, window_);
-    uploader_ = std::make_unique<FilmUploader>(gpu_);
+    films_.reset();
+    open_device();
     if (loop_->has(Panel::vulkan)) {
         loop_->worker(Panel::vulkan)->recover(vulkan_factory(gpu_));
     }
     log_.write("recovered", {{"device", gpu_->name}});
 }
 
+/// Waits until a frame is due: no sooner than the frame rate allows, and not before something happens. Returns the
+/// seconds since the last.
+double ViewWindow::await_frame() {
+    const double due = last_frame_ + 1 / options_.frames_per_second;
+    std::this_thread::sleep_for(std::chrono::duration<double>(due - seconds_now()));
+    const bool at_rest = !hand_.moving() && !state().animation.playing && !news_;
+    read_input(at_rest ? longest_wait : 0);
+    news_ = false;
+    const double now = seconds_now();
+    const double passed = now - last_frame_;
+    frame_seconds_ += (passed - frame_seconds_) * std::min(1.0, passed / 0.5);
+    last_frame_ = now;
+    return passed;
+}
+
+void ViewWindow::draw_widgets(double passed) {
+    imgui_.begin_frame();
+    const RenderedState before = state().rendered;
+    draw_interface(imgui_.theme(), facts(), state(), interface_, replay_);
+    const bool changed = invalidation(before, state().rendered) != Invalidation::nothing;
+    settings_held_ = ImGui::IsAnyItemActive() && (settings_held_ || changed);
+    move_camera(passed);
+    ImGui::Render();
+}
+
+void ViewWindow::step() {
+    state().interacting = hand_.moving() || settings_held_;
+    state().keeps_hidden = interface_.replay;
+    loop_->step(last_frame_);
+    if (loop_->scene().generation != generation_) {
+        generation_ = loop_->scene().generation;
+        window_.set_title(title_of(loop_->scene().request.scene));
+        log_.write("loaded", {{"scene", loop_->scene().request.scene}, {"generation", generation_}});
+    }
+    if (asked_) {  // once both panels have been told of the picture
+        replay_.ask(*loop_, *std::exchange(asked_, {}));
+    }
+    for (const std::string& error : loop_->take_errors()) {
+        report(error);
+    }
+}
+
 bool ViewWindow::run() {
     const InterruptGuard interrupt;
     last_frame_ = seconds_now();
     while (true) {
-        // A frame is due no sooner than the frame rate allows, and not before something happens.
-        const double due = last_frame_ + 1 / options_.frames_per_second;
-        std::this_thread::sleep_for(std::chrono::duration<double>(due - seconds_now()));
-        const bool at_rest = !hand_.moving() && !state().animation.playing && !news_;
-        read_input(at_rest ? longest_wait : 0);
-        news_ = false;
-        const double now = seconds_now();
-        const double passed = now - last_frame_;
-        frame_seconds_ += (passed - frame_seconds_) * std::min(1.0, passed / 0.5);
-        last_frame_ = now;
+        const double passed = await_frame();
         if (input_.closed || interrupt.requested()) {
             break;
         }
-        if (replay_.update()) {
-            log_.write("replayed", {{"paths", replay_.result().paths.size()}, {"parted", replay_.result().parting.has_value()}, {"error", replay_.error()}});
-        }
-        take_saved();
+        take_answers();
         fit_film();
         if (input_.width > 0) {
-            ImGui_ImplGlfw_NewFrame();
-            ImGui::NewFrame();
-            const RenderedState before = state().rendered;
-            ImGui::GetBackgroundDrawList()->AddImage((ImTextureID)picture_texture, {0, 0}, ImGui::GetIO().DisplaySize);
-            draw_interface(theme_, facts(), state(), interface_, replay_);
-            const bool changed = invalidation(before, state().rendered) != Invalidation::nothing;
-            settings_held_ = ImGui::IsAnyItemActive() && (settings_held_ || changed);
-            move_camera(passed);
-            ImGui::Render();
+            draw_widgets(passed);
         }
-        state().interacting = hand_.moving() || settings_held_;
-        state().keeps_hidden = interface_.replay;
-        loop_->step(now);
-        if (asked_) {  // once both panels have been told of the picture
-            replay_.ask(*loop_, *std::exchange(asked_, {}));
-        }
-        for (const std::string& error : loop_->take_errors()) {
-            report(error);
-        }
+        step();
         try {
             if (input_.width > 0) {
                 draw();
             }
             grant_wishes();
-            const bool lost = loop_->has(Panel::vulkan) && loop_->shot(Panel::vulkan)->device_lost;
-            if (lost) {
+            if (loop_->shot(Panel::vulkan)->device_lost) {
                 recover();
             }
         } catch (const DeviceLost&) {
             recover();
         }
-        log_.follow(facts(), state(), interface_, now);
+        log_.follow(facts(), state(), interface_, last_frame_);
     }
     log_.write("quit");
     return interrupt.requested();

@@ -24,9 +24,11 @@ bool section(const Theme& theme, const char* title, bool open) {
     const ImVec2 mid{at.x + half, at.y + height / 2};
     const ImU32 color = packed(hovered ? colors::text : colors::muted);
     if (is_open) {
-        draw.AddTriangleFilled({mid.x - half, mid.y - half / 2}, {mid.x + half, mid.y - half / 2}, {mid.x, mid.y + half / 2}, color);
+        draw.AddTriangleFilled({mid.x - half, mid.y - half / 2}, {mid.x + half, mid.y - half / 2},
+                               {mid.x, mid.y + half / 2}, color);
     } else {
-        draw.AddTriangleFilled({mid.x - half / 2, mid.y - half}, {mid.x + half / 2, mid.y}, {mid.x - half / 2, mid.y + half}, color);
+        draw.AddTriangleFilled({mid.x - half / 2, mid.y - half}, {mid.x + half / 2, mid.y},
+                               {mid.x - half / 2, mid.y + half}, color);
     }
     draw.AddText({at.x + theme.units(3), at.y + ImGui::GetStyle().FramePadding.y}, packed(colors::text), title);
     ImGui::PopID();
@@ -60,15 +62,16 @@ void row(const Theme& theme, const char* label, const char* help) {
 bool choice(const Theme& theme, const char* label, std::span<const char* const> names, int& chosen, const char* help) {
     row(theme, label, help);
     ImGui::PushID(label);
-    const bool changed = ImGui::Combo("##choice", &chosen, names.data(), static_cast<int>(names.size()), static_cast<int>(names.size()));
+    const bool changed =
+        ImGui::Combo("##choice", &chosen, names.data(), static_cast<int>(names.size()), static_cast<int>(names.size()));
     ImGui::PopID();
     return changed;
 }
 
 namespace {
 
-bool number(const Theme& theme, const char* label, double& value, double least, double most, const char* format, const char* help,
-            ImGuiSliderFlags flags) {
+bool number(const Theme& theme, const char* label, double& value, double least, double most, const char* format,
+            const char* help, ImGuiSliderFlags flags) {
     row(theme, label, help);
     ImGui::PushID(label);
     const bool changed = ImGui::SliderScalar("##number", ImGuiDataType_Double, &value, &least, &most, format,
@@ -79,19 +82,22 @@ bool number(const Theme& theme, const char* label, double& value, double least, 
 
 }  // namespace
 
-bool slider(const Theme& theme, const char* label, double& value, double least, double most, const char* format, const char* help) {
+bool slider(const Theme& theme, const char* label, double& value, double least, double most, const char* format,
+            const char* help) {
     return number(theme, label, value, least, most, format, help, 0);
 }
 
-bool logarithmic_slider(const Theme& theme, const char* label, double& value, double least, double most, const char* format,
-                        const char* help) {
+bool logarithmic_slider(const Theme& theme, const char* label, double& value, double least, double most,
+                        const char* format, const char* help) {
     return number(theme, label, value, least, most, format, help, ImGuiSliderFlags_Logarithmic);
 }
 
-bool slider(const Theme& theme, const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most, const char* help) {
+bool slider(const Theme& theme, const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
+            const char* help) {
     row(theme, label, help);
     ImGui::PushID(label);
-    const bool changed = ImGui::SliderScalar("##count", ImGuiDataType_U32, &value, &least, &most, "%u", ImGuiSliderFlags_AlwaysClamp);
+    const bool changed =
+        ImGui::SliderScalar("##count", ImGuiDataType_U32, &value, &least, &most, "%u", ImGuiSliderFlags_AlwaysClamp);
     ImGui::PopID();
     return changed;
 }
@@ -110,7 +116,8 @@ bool segments(const char* id, std::span<const char* const> names, int& chosen, f
     const float part = std::floor(width / static_cast<float>(names.size()));
     const float rounding = ImGui::GetStyle().FrameRounding;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled(at, {at.x + part * static_cast<float>(names.size()), at.y + height}, packed(colors::field), rounding);
+    draw.AddRectFilled(at, {at.x + part * static_cast<float>(names.size()), at.y + height}, packed(colors::field),
+                       rounding);
     const int before = chosen;
     ImGui::PushID(id);
     for (int i = 0; i < static_cast<int>(names.size()); ++i) {
@@ -122,7 +129,8 @@ bool segments(const char* id, std::span<const char* const> names, int& chosen, f
         }
         const bool down = chosen == i;
         if (down || ImGui::IsItemHovered()) {
-            draw.AddRectFilled(from, {from.x + part, from.y + height}, packed(down ? colors::accent_dim : colors::field_hovered), rounding);
+            draw.AddRectFilled(from, {from.x + part, from.y + height},
+                               packed(down ? colors::accent_dim : colors::field_hovered), rounding);
         }
         const ImVec2 size = ImGui::CalcTextSize(name);
         draw.AddText({from.x + std::floor((part - size.x) / 2), from.y + ImGui::GetStyle().FramePadding.y},

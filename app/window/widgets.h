@@ -16,7 +16,8 @@ bool section(const Theme& theme, const char* title, bool open = true);
 void row(const Theme& theme, const char* label, const char* help = nullptr);
 
 /// A row with a choice among `names`; true where `chosen` has changed.
-bool choice(const Theme& theme, const char* label, std::span<const char* const> names, int& chosen, const char* help = nullptr);
+bool choice(const Theme& theme, const char* label, std::span<const char* const> names, int& chosen,
+            const char* help = nullptr);
 
 /// The same for an enum whose values count from 0.
 template <typename Enum>
@@ -31,8 +32,8 @@ bool choice(const Theme& theme, const char* label, std::initializer_list<const c
 /// Rows with numbers. Double click or Ctrl+click on one types a number.
 bool slider(const Theme& theme, const char* label, double& value, double least, double most, const char* format,
             const char* help = nullptr);
-bool logarithmic_slider(const Theme& theme, const char* label, double& value, double least, double most, const char* format,
-                        const char* help = nullptr);
+bool logarithmic_slider(const Theme& theme, const char* label, double& value, double least, double most,
+                        const char* format, const char* help = nullptr);
 bool slider(const Theme& theme, const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
             const char* help = nullptr);
 bool toggle(const Theme& theme, const char* label, bool& value, const char* help = nullptr);

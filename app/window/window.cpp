@@ -23,9 +23,10 @@ std::string glfw_reason() {
 
 void start_glfw() {
     if (glfwInit() != GLFW_TRUE) {
-        throw NoDevice(fmt::format("view: no window could be opened ({}); without a display use `diptych view --headless`, "
-                                   "`diptych render --frames N` or, to watch from afar, `diptych render --live HOST:PORT`",
-                                   glfw_reason()));
+        throw NoDevice(
+            fmt::format("view: no window could be opened ({}); without a display use `diptych view --headless`, "
+                        "`diptych render --frames N` or, to watch from afar, `diptych render --live HOST:PORT`",
+                        glfw_reason()));
     }
 }
 
@@ -151,7 +152,8 @@ VkSurfaceKHR_T* Window::make_surface(VkInstance_T* instance) const {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     const VkResult result = glfwCreateWindowSurface(instance, handle_, nullptr, &surface);
     if (result != VK_SUCCESS) {
-        throw Error(fmt::format("no Vulkan surface for the window: {} (VkResult {})", glfw_reason(), static_cast<int>(result)));
+        throw Error(
+            fmt::format("no Vulkan surface for the window: {} (VkResult {})", glfw_reason(), static_cast<int>(result)));
     }
     return surface;
 }

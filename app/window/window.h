@@ -32,7 +32,8 @@ struct MousePress {
     bool alt = false;
 };
 
-/// What happened since the last poll, and how things stand. Positions in pixels of the framebuffer, from its upper left corner.
+/// What happened since the last poll, and how things stand. Positions in pixels of the framebuffer, from its upper left
+/// corner.
 struct WindowInput {
     bool closed = false;
     int width = 0;  // of the framebuffer; 0 while the window is minimised
@@ -74,8 +75,8 @@ private:
     std::unique_ptr<WindowInput> input_;  // gathered by the callbacks
 };
 
-/// What an instance needs for surfaces on this display. GLFW must be up, as it is while a Window lives. Throws NoDevice where the
-/// display or the Vulkan loader cannot show anything.
+/// What an instance needs for surfaces on this display. GLFW must be up, as it is while a Window lives. Throws NoDevice
+/// where the display or the Vulkan loader cannot show anything.
 std::vector<std::string> surface_extensions();
 
 /// Throws NoDevice, saying what to do instead, where no window could be opened.

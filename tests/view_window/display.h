@@ -28,7 +28,8 @@ private:
     int child_ = -1;
 };
 
-/// Drags files onto a window from another program and lets go of them, by the XDND protocol; true where the window took them.
+/// Drags files onto a window from another program and lets go of them, by the XDND protocol; true where the window took
+/// them.
 bool drop_files(const std::string& display, unsigned long window, const std::vector<std::string>& files);
 
 }  // namespace diptych::tests

@@ -23,7 +23,8 @@ std::vector<std::string> arguments(const std::string& scene, const std::string& 
 DrivenView::DrivenView(const VirtualDisplay& display, const TemporaryFolder& folder, const std::string& scene,
                        const std::vector<std::string>& more)
     : display_(display), log_(folder.file("log")),
-      process_(folder, arguments(scene, log_, folder.path().string(), more), {"DISPLAY=" + display.name(), "DIPTYCH_VALIDATION=1"}) {
+      process_(folder, arguments(scene, log_, folder.path().string(), more),
+               {"DISPLAY=" + display.name(), "DIPTYCH_VALIDATION=1"}) {
     await("opened");
     const std::string found = display.hand({"search", "--name", "diptych"});
     window_ = found.empty() ? 0 : std::stoul(found.substr(0, found.find('\n')));
@@ -73,22 +74,38 @@ Event DrivenView::latest(const std::string& name, const std::function<bool(const
     return found;
 }
 
+Event DrivenView::placed(const std::string& control) {
+    const auto is_it = [&](const Event& event) { return event["name"] == control; };
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+    while (std::chrono::steady_clock::now() < deadline) {
+        const Event seen = latest("placed", is_it);
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        if (!seen.is_null() && seen == latest("placed", is_it)) {
+            return seen;
+        }
+    }
+    give_up("no control '" + control + "' was placed");
+}
+
 void DrivenView::key(const std::string& name) const {
     display_.hand({"key", name});
 }
 
 void DrivenView::click(const Event& placed) const {
     const auto at = [&](const char* axis) { return std::to_string(static_cast<int>(placed[axis].get<double>())); };
-    display_.hand({"mousemove", "--sync", at("x"), at("y"), "sleep", "0.2", "mousedown", "1", "sleep", "0.2", "mouseup", "1"});
+    display_.hand(
+        {"mousemove", "--sync", at("x"), at("y"), "sleep", "0.2", "mousedown", "1", "sleep", "0.2", "mouseup", "1"});
 }
 
 void DrivenView::drag(int button, int x, int y, int dx, int dy) const {
     const std::string which = std::to_string(button);
-    std::vector<std::string> words = {"mousemove", "--sync", std::to_string(x), std::to_string(y), "sleep", "0.2", "mousedown", which};
+    std::vector<std::string> words = {"mousemove", "--sync", std::to_string(x), std::to_string(y),
+                                      "sleep",     "0.2",    "mousedown",       which};
     constexpr int steps = 4;
     for (int i = 1; i <= steps; ++i) {
-        for (const std::string& word : {std::string("mousemove"), std::to_string(x + dx * i / steps), std::to_string(y + dy * i / steps),
-                                        std::string("sleep"), std::string("0.15")}) {
+        for (const std::string& word :
+             {std::string("mousemove"), std::to_string(x + dx * i / steps), std::to_string(y + dy * i / steps),
+              std::string("sleep"), std::string("0.15")}) {
             words.push_back(word);
         }
     }

@@ -19,10 +19,13 @@ public:
     DrivenView(const VirtualDisplay& display, const TemporaryFolder& folder, const std::string& scene,
                const std::vector<std::string>& more);
 
-    /// The first event that `fits` among those that have not been awaited yet; fails the test where none comes. All before it are passed over.
+    /// The first event that `fits` among those that have not been awaited yet; fails the test where none comes. All
+    /// before it are passed over.
     Event await(const std::string& name, const std::function<bool(const Event&)>& fits = {});
     /// The latest of all events so far that fits, awaited or not; null where there is none.
     Event latest(const std::string& name, const std::function<bool(const Event&)>& fits = {});
+    /// Where a control stands, once it stands still.
+    Event placed(const std::string& control);
 
     void key(const std::string& name) const;
     void click(const Event& placed) const;

@@ -32,9 +32,8 @@ public:
         XTranslateCoordinates(display_, target_, DefaultRootWindow(display_), 100, 100, &x, &y, &child);
         send("XdndPosition", {static_cast<long>(source_), 0, (static_cast<long>(x) << 16U) | y, CurrentTime,
                               static_cast<long>(atom("XdndActionCopy"))});
-        const bool wanted = await([&](const XEvent& event) {
-            return is_message(event, "XdndStatus") && (event.xclient.data.l[1] & 1) != 0;
-        });
+        const bool wanted = await(
+            [&](const XEvent& event) { return is_message(event, "XdndStatus") && (event.xclient.data.l[1] & 1) != 0; });
         if (!wanted) {
             return false;
         }
