@@ -23,7 +23,9 @@ void line(const char* keys, const char* text) {
     ImGui::TextUnformatted(keys);
     ImGui::PopStyleColor();
     ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
 }
 
 }  // namespace

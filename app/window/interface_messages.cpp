@@ -70,7 +70,7 @@ void draw_messages(const Theme& theme, const InterfaceFacts& facts, InterfaceSta
                      colors::accent, false, middle, y);
     }
     for (const PanelFacts& panel : facts.panels) {
-        if (panel.shown && panel.shot != nullptr && !panel.shot->busy.empty()) {
+        if ((panel.shown || interface.replay) && panel.shot != nullptr && !panel.shot->busy.empty()) {
             draw_message(theme, panel.title, fmt::format("{}: {} …", panel.title, panel.shot->busy), panel.color, false,
                          middle, y);
         }

@@ -21,6 +21,7 @@ void PixelReplay::ask(const FrameLoop& loop, const shared::PathQuery& query) {
     forget();
     asked_ = true;
     query_ = query;
+    result_.tolerance = tolerance;
     for (const Panel panel : {Panel::cpu, Panel::vulkan}) {
         if (PanelWorker* worker = loop.worker(panel)) {
             const std::uint32_t seed = loop.shot(panel)->state.request.settings.seed;
@@ -30,31 +31,32 @@ void PixelReplay::ask(const FrameLoop& loop, const shared::PathQuery& query) {
 }
 
 bool PixelReplay::update() {
-    if (answers_.empty()) {
-        return false;
-    }
-    for (const Answer& answer : answers_) {
-        if (answer.path.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-            return false;
+    bool any = false;
+    for (auto answer = answers_.begin(); answer != answers_.end();) {
+        if (answer->path.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+            ++answer;
+            continue;
         }
+        take(*answer);
+        answer = answers_.erase(answer);
+        any = true;
     }
-    Replay replay;
-    replay.tolerance = tolerance;
-    for (Answer& answer : answers_) {
-        try {
-            replay.paths.push_back(answer.path.get());
-            replay.backends.push_back(answer.backend);
-            replay.devices.push_back(answer.device);
-        } catch (const Error& error) {
-            error_ = error.what();
-        }
+    return any && answers_.empty();
+}
+
+void PixelReplay::take(Answer& answer) {
+    try {
+        // The CPU's in front, whichever comes first.
+        const auto place = answer.backend == "cpu" ? 0 : static_cast<std::ptrdiff_t>(result_.paths.size());
+        result_.paths.insert(result_.paths.begin() + place, answer.path.get());
+        result_.backends.insert(result_.backends.begin() + place, answer.backend);
+        result_.devices.insert(result_.devices.begin() + place, answer.device);
+    } catch (const Error& error) {
+        error_ = error.what();
     }
-    if (replay.paths.size() > 1) {
-        replay.parting = find_parting(replay.paths[0], replay.paths[1], tolerance);
+    if (result_.paths.size() > 1) {
+        result_.parting = find_parting(result_.paths[0], result_.paths[1], tolerance);
     }
-    answers_.clear();
-    result_ = std::move(replay);
-    return true;
 }
 
 }  // namespace diptych::app

@@ -17,13 +17,13 @@ public:
     void ask(const FrameLoop& loop, const shared::PathQuery& query);
     void forget();
 
-    /// Once a frame: takes what the panels have answered; true when all have.
+    /// Once a frame: takes what the panels have answered; true when the last one has.
     bool update();
 
     bool asked() const { return asked_; }
     bool waiting() const { return !answers_.empty(); }
     const shared::PathQuery& query() const { return query_; }
-    /// Complete once nothing is waited for; its paths are as many as its backends then.
+    /// What has come so far.
     const Replay& result() const { return result_; }
     const std::string& error() const { return error_; }
 
@@ -33,6 +33,8 @@ private:
         std::string device;
         std::future<RecordedPath> path;
     };
+
+    void take(Answer& answer);
 
     bool asked_ = false;
     shared::PathQuery query_{};

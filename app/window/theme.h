@@ -20,7 +20,7 @@ struct Theme {
 };
 
 namespace colors {
-inline const ImVec4 panel{0.055F, 0.063F, 0.075F, 0.90F};
+inline const ImVec4 panel{0.055F, 0.063F, 0.075F, 0.93F};
 inline const ImVec4 line{1, 1, 1, 0.09F};
 inline const ImVec4 field{1, 1, 1, 0.07F};
 inline const ImVec4 field_hovered{1, 1, 1, 0.13F};

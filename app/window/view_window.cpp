@@ -107,6 +107,7 @@ private:
     FilmSaver saver_;
     double last_frame_ = 0;
     double frame_seconds_ = 0;  // averaged
+    int frames_owed_ = 0;       // at once, after input: what opens takes a frame to be laid out and one to be seen
     bool settings_held_ = false;
     bool opened_ = false;
     std::uint64_t generation_ = 1;  // of the scene that the title names
@@ -355,9 +356,10 @@ void ViewWindow::recover() {
 double ViewWindow::await_frame() {
     const double due = last_frame_ + 1 / options_.frames_per_second;
     std::this_thread::sleep_for(std::chrono::duration<double>(due - seconds_now()));
-    const bool at_rest = !hand_.moving() && !state().animation.playing && !news_;
+    const bool at_rest = !hand_.moving() && !state().animation.playing && !news_ && frames_owed_ == 0;
     read_input(at_rest ? longest_wait : 0);
     news_ = false;
+    frames_owed_ = input_.any ? 3 : std::max(frames_owed_ - 1, 0);
     const double now = seconds_now();
     const double passed = now - last_frame_;
     frame_seconds_ += (passed - frame_seconds_) * std::min(1.0, passed / 0.5);
