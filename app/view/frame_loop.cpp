@@ -18,7 +18,8 @@ namespace diptych::app {
 namespace {
 
 constexpr std::array<Panel, 2> panels = {Panel::cpu, Panel::vulkan};
-// Single changes are answered in full at once; those that follow one another faster than this are a motion, and end so long after the last.
+// Single changes are answered in full at once; those that follow one another faster than this are a motion, and end so
+// long after the last.
 constexpr double burst_seconds = 0.2;
 // Of a frame, for samples; the rest is for showing them.
 constexpr double sampling_share = 0.85;
