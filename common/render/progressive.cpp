@@ -17,6 +17,9 @@ constexpr std::uint32_t largest_batch = 4096;
 constexpr std::uint32_t largest_growth = 4;  // from batch to batch: the first ones are too short to measure well
 constexpr double look_interval = 1;
 constexpr double look_share = 0.02;
+// Of a time limit, left to the last batch. Those before it take half of what is left: then a machine that suddenly has half its speed is
+// noticed in time.
+constexpr double last_share = 0.02;
 
 double steady_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -33,7 +36,8 @@ std::uint32_t next_batch(const ProgressiveTarget& target, std::uint32_t done, do
             if (left < 0.5) {
                 return 0;
             }
-            wanted = std::min(wanted, std::round(left));
+            const double last = last_share * target.seconds / sample_seconds;
+            wanted = std::min(wanted, std::round(left <= last ? left : std::max(left / 2, last)));
         }
         const double ceiling = std::min<double>(largest_batch, static_cast<double>(last_batch) * largest_growth);
         batch = static_cast<std::uint64_t>(std::clamp(wanted, 1.0, ceiling));

@@ -1,6 +1,7 @@
 #include "catch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "render/progressive.h"
@@ -43,7 +44,8 @@ public:
                     *to_cancel = true;
                 }
             }
-            clock += sample_seconds_ * (1 + slow_down * static_cast<double>(first + i));
+            const double machine = clock < slow_from ? 1 : 2;
+            clock += machine * sample_seconds_ * (1 + slow_down * static_cast<double>(first + i));
         }
     }
 
@@ -58,6 +60,7 @@ public:
     double look_seconds = 0;
     bool noise = false;
     double slow_down = 0;  // each sample takes longer than the one before by this share of the first
+    double slow_from = HUGE_VAL;  // clock from which the machine has half its speed
     std::vector<std::uint32_t> firsts;
     std::vector<std::uint32_t> counts;
     std::uint32_t cancel_after = 0;  // samples of pixels
@@ -117,6 +120,15 @@ TEST_CASE("a time is met within five percent", "[render]") {
     CHECK(result.seconds == Approx(2).epsilon(0.05));
     CHECK(result.spp == renderer.film().pixels[0].samples);
     CHECK_FALSE(result.interrupted);
+}
+
+TEST_CASE("a time is met on a machine that has other work to do from some moment on", "[render]") {
+    FakeRenderer renderer(GENERATE(1e-6, 0.0007, 0.009));
+    renderer.slow_from = GENERATE(0.3, 0.375, 0.4, 0.45, 0.49);
+    std::atomic<bool> cancel = false;
+    ProgressiveTarget target;
+    target.seconds = 0.5;
+    CHECK(render_progressively(renderer, target, cancel, clocked(renderer)).seconds == Approx(0.5).epsilon(0.05));
 }
 
 TEST_CASE("a sample that outlasts the time is rendered whole, once", "[render]") {
