@@ -11,7 +11,7 @@
 #include "resampling_memory.h"
 #include "tonemap.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 16, local_size_y = 16) in;  // as many as there are bins
 layout(set = 0, binding = 0, rgba8) uniform writeonly image2D picture;
 layout(push_constant, scalar) uniform Push { Display display; };
 
@@ -150,18 +150,15 @@ void show(uvec2 pixel) {
 }
 
 void main() {
-    for (uint bin = gl_LocalInvocationIndex; bin < HISTOGRAM_BINS; bin += gl_WorkGroupSize.x * gl_WorkGroupSize.y) {
-        bins[bin] = 0u;
-    }
+    bins[gl_LocalInvocationIndex] = 0u;
     barrier();
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (pixel.x < display.size.x && pixel.y < display.size.y) {
         show(pixel);
     }
     barrier();
-    for (uint bin = gl_LocalInvocationIndex; bin < HISTOGRAM_BINS; bin += gl_WorkGroupSize.x * gl_WorkGroupSize.y) {
-        if (bins[bin] > 0u) {
-            atomicAdd(histogram[bin], bins[bin]);
-        }
+    uint counted = bins[gl_LocalInvocationIndex];
+    if (counted > 0u) {
+        atomicAdd(histogram[gl_LocalInvocationIndex], counted);
     }
 }

@@ -22,7 +22,8 @@ using PipelineStage = vk::PipelineStageFlagBits;
 constexpr vk::Format format = vk::Format::eR8G8B8A8Unorm;
 constexpr vk::ImageSubresourceRange whole{
     .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1};
-constexpr std::uint32_t group_side = 8;  // of display.comp
+constexpr std::uint32_t group_side = 16;  // of display.comp, which counts one bin an invocation
+static_assert(group_side * group_side == shared::HISTOGRAM_BINS);
 
 #define ASSERT_LAYER(name, constant) static_assert(static_cast<std::uint32_t>(DisplayLayer::name) == shared::constant)
 ASSERT_LAYER(radiance, LAYER_RADIANCE);

@@ -81,9 +81,9 @@ void PathRenderer::count_bytes() {
 // at a time, and one more.
 void PathRenderer::begin_film() {
     const auto size = glm::ivec2(constants_.size);
-    film_.reset();
     std::erase_if(films_, [&](const auto& film) { return !fits(*film, size.x, size.y, features_); });
-    const auto free = std::find_if(films_.begin(), films_.end(), [](const auto& film) { return film.use_count() == 1; });
+    const auto free = std::find_if(films_.begin(), films_.end(),
+                                   [&](const auto& film) { return film.use_count() == (film == film_ ? 2 : 1); });
     if (free != films_.end()) {
         film_ = *free;
         diptych::clear_film(*gpu_, *film_);

@@ -21,7 +21,7 @@ public:
 };
 
 enum class PresentMode {
-    steady,  // waits for the display (FIFO)
+    steady,  // waits for the display (FIFO), some drivers with the queue held, which keeps renderers waiting too
     newest,  // never waits, never tears (mailbox), where the surface has it; else as `steady`
 };
 

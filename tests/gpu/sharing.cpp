@@ -103,7 +103,7 @@ TEST_CASE("A film that is looked at stays as it is while the next picture begins
     check_no_validation_messages();
 }
 
-TEST_CASE("Dispatches keep to the time that they are told") {
+TEST_CASE("Dispatches of another length give the same picture") {
     NEED_VULKAN();
     RenderSettings settings = settings_of(Integrator::path);
     settings.width = settings.height = 96;
