@@ -44,7 +44,8 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
     const auto start = std::chrono::steady_clock::now();
     in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
     in_context("building acceleration structures", [&] {
-        bottom_ = build_bottom_levels(*gpu_, packed, scene_);
+        bottom_ = build_bottom_levels(*gpu_, packed, scene_,
+                                      options.group_instances ? group_instances(packed) : InstanceGroups{});
         top_ = build_top_level(*gpu_, packed, bottom_);
         if (packed.keeps_previous) {
             previous_top_ = build_top_level(*gpu_, packed, bottom_);
@@ -56,7 +57,7 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
         resampling_ = make_resampling_memory(*gpu_, constants_);
     });
     costs_.build_seconds = seconds_since(start);
-    costs_.acceleration_bytes = bottom_.bytes + top_.storage.size + previous_top_.storage.size;
+    costs_.acceleration_bytes = bottom_.bytes + bottom_.grouped_geometries.size + top_.storage.size + previous_top_.storage.size;
     costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + film_bytes(film_) +
                    resampling_memory_bytes(resampling_);
 
@@ -86,6 +87,7 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
 
 SceneAddresses PathRenderer::addresses(const FilmMemory& film) const {
     SceneAddresses all = scene_addresses(scene_);
+    all.grouped_geometries = bottom_.grouped_geometries.address;
     enter_film(all, film);
     enter_resampling(all, resampling_);
     return all;
@@ -96,7 +98,8 @@ TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) cons
     const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
     const bool alpha = (features_ & shared::FEATURE_ALPHA) != 0;
     TracePipeline pipeline =
-        make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha), features_, record_rays);
+        make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha),
+                      {.features = features_, .record_rays = record_rays ? 1U : 0U, .groups = bottom_.groups.groups.empty() ? 0U : 1U});
     save_pipeline_cache(cache, cache_path);
     return pipeline;
 }
