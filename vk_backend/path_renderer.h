@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <utility>
+#include <tuple>
 
 #include "../shaders/dispatch.h"
 #include "acceleration.h"
@@ -25,6 +25,7 @@ namespace diptych {
 struct PathRendererOptions {
     Spirv ray_generation;            // instead of path.rgen
     std::uint64_t slice_budget = 0;  // pixel samples a dispatch, whatever the measured speed
+    bool group_instances = true;     // those that stand still (instance_groups.h)
 };
 
 class PathRenderer final : public Renderer {
@@ -65,7 +66,8 @@ private:
     void choose_pipelines();
     void bind(const PackedScene& packed);
     void require_bound() const;
-    void replace_top_levels(const PackedScene& packed);
+    void build_structures(const PackedScene& packed);
+    void replace_structures_of(const PackedScene& packed);
     void replace_film();
     void count_bytes();
     void begin_film();
@@ -93,7 +95,7 @@ private:
     std::vector<std::shared_ptr<FilmMemory>> films_;  // of the present size and layers; one is film_, the others may be looked at
     std::shared_ptr<FilmMemory> film_;
     PipelineLayout layout_;
-    std::map<std::pair<const std::uint32_t*, std::uint32_t>, TracePipeline> pipelines_;  // by ray generation shader and features
+    std::map<std::tuple<const std::uint32_t*, std::uint32_t, bool>, TracePipeline> pipelines_;  // by ray generation shader, features, groups
     const TracePipeline* path_ = nullptr;
     std::shared_ptr<ResamplingMemory> resampling_;
     std::array<const TracePipeline*, resampling_stages> stages_{};
