@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "../shaders/dispatch.h"
 #include "acceleration.h"
