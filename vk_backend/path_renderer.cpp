@@ -13,6 +13,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Whether one large tree is traced faster than many under a top level: not where the device is a CPU (decision 0010).
+bool gains_by_groups(const Gpu& gpu) {
+    return gpu.physical.getProperties().deviceType != vk::PhysicalDeviceType::eCpu;
+}
+
 }  // namespace
 
 PipelineShaders scene_shaders(Spirv ray_generation, bool alpha) {
@@ -40,7 +45,7 @@ void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipelin
 
 PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes)
     : PathRenderer(open_gpu({.device = options.device, .validation = validation_wanted(options.validation)}), packed,
-                   {changes.ray_generation, changes.slice_budget, changes.group_instances && options.group_instances}) {}
+                   {changes.ray_generation, changes.slice_budget, changes.group_instances && options.group_instances, changes.group_anywhere}) {}
 
 PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, const PathRendererOptions& changes)
     : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes), schedule_(packed.constants) {
@@ -67,7 +72,8 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
 }
 
 void PathRenderer::build_structures(const PackedScene& packed) {
-    bottom_ = build_bottom_levels(*gpu_, packed, scene_, changes_.group_instances ? group_instances(packed) : InstanceGroups{});
+    const bool grouped = changes_.group_instances && (changes_.group_anywhere || gains_by_groups(*gpu_));
+    bottom_ = build_bottom_levels(*gpu_, packed, scene_, grouped ? group_instances(packed) : InstanceGroups{});
     top_ = build_top_level(*gpu_, packed, bottom_);
     previous_top_ = packed.keeps_previous ? build_top_level(*gpu_, packed, bottom_) : TopLevel();
 }

@@ -26,7 +26,8 @@ namespace diptych {
 struct PathRendererOptions {
     Spirv ray_generation;            // instead of path.rgen
     std::uint64_t slice_budget = 0;  // pixel samples a dispatch, whatever the measured speed
-    bool group_instances = true;     // those that stand still (instance_groups.h)
+    bool group_instances = true;     // those that stand still (instance_groups.h), on a GPU
+    bool group_anywhere = false;     // and where the device is a CPU
 };
 
 class PathRenderer final : public Renderer {

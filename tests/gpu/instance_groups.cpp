@@ -80,6 +80,12 @@ Scene far_sphere(double distance) {
     return scene;
 }
 
+PathRendererOptions grouping() {
+    PathRendererOptions options;
+    options.group_anywhere = true;
+    return options;
+}
+
 }  // namespace
 
 TEST_CASE("Instances are grouped where nothing moves or hides them, within the limits") {
@@ -157,7 +163,7 @@ TEST_CASE("What leaves a grouped surface does not meet it again") {
         settings.max_depth = 4;
         const PackedScene packed = pack_scene(far_sphere(distance), settings);
         REQUIRE(group_instances(packed).groups.size() == 1);
-        PathRenderer renderer(packed, test_options());
+        PathRenderer renderer(packed, test_options(), grouping());
         std::vector<shared::PathQuery> queries;
         for (std::uint32_t i = 0; i < 64 * 64 * 8; ++i) {
             queries.push_back({{i % 64, i / 64 % 64}, i / 4096});
@@ -181,7 +187,7 @@ TEST_CASE("A grouped instance may not move") {
     settings.width = 8;
     settings.height = 8;
     PackedScene packed = pack_scene(far_sphere(3), settings);
-    PathRenderer renderer(packed, test_options());
+    PathRenderer renderer(packed, test_options(), grouping());
     renderer.move_to(packed);
     packed.instances[1].row_0.w += 1;
     CHECK_THROWS_WITH(renderer.move_to(packed), Catch::Contains("instance 1 has moved"));
