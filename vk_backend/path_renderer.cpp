@@ -13,9 +13,15 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Whether one large tree is traced faster than many under a top level: not where the device is a CPU (decision 0010).
-bool gains_by_groups(const Gpu& gpu) {
-    return gpu.physical.getProperties().deviceType != vk::PhysicalDeviceType::eCpu;
+InstanceGroups chosen_groups(const Gpu& gpu, const PackedScene& packed, Grouping grouping) {
+    const bool on_cpu = gpu.physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+    const bool wanted = grouping == Grouping::anywhere || (grouping == Grouping::on_gpus && !on_cpu);
+    return wanted ? group_instances(packed) : InstanceGroups{};
+}
+
+PathRendererOptions with_options(PathRendererOptions changes, const VulkanOptions& options) {
+    changes.grouping = options.group_instances ? changes.grouping : Grouping::none;
+    return changes;
 }
 
 }  // namespace
@@ -45,7 +51,7 @@ void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipelin
 
 PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes)
     : PathRenderer(open_gpu({.device = options.device, .validation = validation_wanted(options.validation)}), packed,
-                   {changes.ray_generation, changes.slice_budget, changes.group_instances && options.group_instances, changes.group_anywhere}) {}
+                   with_options(changes, options)) {}
 
 PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, const PathRendererOptions& changes)
     : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes), schedule_(packed.constants) {
@@ -72,8 +78,7 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
 }
 
 void PathRenderer::build_structures(const PackedScene& packed) {
-    const bool grouped = changes_.group_instances && (changes_.group_anywhere || gains_by_groups(*gpu_));
-    bottom_ = build_bottom_levels(*gpu_, packed, scene_, grouped ? group_instances(packed) : InstanceGroups{});
+    bottom_ = build_bottom_levels(*gpu_, packed, scene_, chosen_groups(*gpu_, packed, changes_.grouping));
     top_ = build_top_level(*gpu_, packed, bottom_);
     previous_top_ = packed.keeps_previous ? build_top_level(*gpu_, packed, bottom_) : TopLevel();
 }

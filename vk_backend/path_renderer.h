@@ -22,12 +22,14 @@
 
 namespace diptych {
 
+/// Whether instances that stand still are gathered (instance_groups.h): on a GPU, where that pays (decision 0010), or for a test anywhere.
+enum class Grouping { none, on_gpus, anywhere };
+
 /// What tests change.
 struct PathRendererOptions {
     Spirv ray_generation;            // instead of path.rgen
     std::uint64_t slice_budget = 0;  // pixel samples a dispatch, whatever the measured speed
-    bool group_instances = true;     // those that stand still (instance_groups.h), on a GPU
-    bool group_anywhere = false;     // and where the device is a CPU
+    Grouping grouping = Grouping::on_gpus;
 };
 
 class PathRenderer final : public Renderer {

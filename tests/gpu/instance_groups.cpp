@@ -82,7 +82,7 @@ Scene far_sphere(double distance) {
 
 PathRendererOptions grouping() {
     PathRendererOptions options;
-    options.group_anywhere = true;
+    options.grouping = Grouping::anywhere;
     return options;
 }
 
@@ -190,7 +190,36 @@ TEST_CASE("A grouped instance may not move") {
     PathRenderer renderer(packed, test_options(), grouping());
     renderer.move_to(packed);
     packed.instances[1].row_0.w += 1;
+    packed.revisions = {};
     CHECK_THROWS_WITH(renderer.move_to(packed), Catch::Contains("instance 1 has moved"));
+    check_no_validation_messages();
+}
+
+TEST_CASE("Groups are built anew where their scene is packed about another origin") {
+    NEED_VULKAN();
+    RenderSettings settings;
+    settings.width = 16;
+    settings.height = 16;
+    settings.max_depth = 3;
+    Scene scene = far_sphere(3);
+    PathRenderer renderer(pack_scene(scene, settings), test_options(), grouping());
+    scene.cameras[0].camera_to_world = glm::translate(glm::dmat4(1), glm::dvec3(0.5, 0.25, 0));
+    const PackedScene aside = pack_scene(scene, settings);
+    renderer.reconfigure(aside);
+    PathRenderer fresh(aside, test_options(), grouping());
+    const std::atomic<bool> cancel = false;
+    renderer.render(0, 2, cancel);
+    fresh.render(0, 2, cancel);
+    const Film film = renderer.film();
+    const Film expected = fresh.film();
+    glm::vec3 sum(0);
+    for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
+        CHECK(film.pixels[i].sum == expected.pixels[i].sum);
+        CHECK(film.pixels[i].rays == expected.pixels[i].rays);
+        sum += expected.pixels[i].sum;
+    }
+    CHECK(sum.x > 0);
+    CHECK(renderer.costs().bytes == fresh.costs().bytes);
     check_no_validation_messages();
 }
 
