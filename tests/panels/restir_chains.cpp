@@ -1,5 +1,6 @@
 // The chains of tests/restir on the device.
 #include "../restir/chain_cases.h"
+#include "loader.h"
 #include "vulkan_device.h"
 #include "vulkan_renderer.h"
 
