@@ -1,5 +1,6 @@
 #include "arguments.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -102,6 +103,8 @@ void add_backend_options(CLI::App& command, RenderArguments& arguments) {
     command.add_option("--device", request.device, "Vulkan device by index or name; the best by default");
     command.add_option("--threads", request.threads, "Threads of cpu or oracle; one a core by default")->check(CLI::Range(1, 4096));
     command.add_flag("--validation", request.validation, "Run Vulkan's validation layers; exit 1 if they have anything to say");
+    // For measuring what it gains (docs/decisions/0010-groups-of-instances.md): not in the help.
+    command.add_flag("--group-instances,!--no-group-instances", request.group_instances)->group("");
 }
 
 void add_oracle_option(CLI::App& command, RenderArguments& arguments) {

@@ -1,12 +1,17 @@
 // Options that several commands share, from text to a RenderRequest.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "render/render_request.h"
 #include "scene/scene.h"
+
+namespace CLI {
+class App;
+class Option;
+class Validator;
+}  // namespace CLI
 
 namespace diptych::app {
 

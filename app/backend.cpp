@@ -29,6 +29,7 @@ std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& p
     VulkanOptions options;
     options.device = request.device;
     options.validation = request.validation;
+    options.group_instances = request.group_instances;
     return make_vulkan_renderer(packed, options);
 #else
     throw Error("--backend vulkan: this program was built without it (DIPTYCH_VULKAN=OFF); use --backend cpu");

@@ -1,5 +1,6 @@
 #include "backend_pair.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

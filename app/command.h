@@ -1,8 +1,11 @@
 // The subcommands, one file each. Each adds itself to the program's parser and, when chosen, sets what is to be run.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace diptych::app {
 

@@ -14,6 +14,8 @@
 #include "error.h"
 #include "report.h"
 #if DIPTYCH_VULKAN
+#include <vulkan/vulkan_core.h>
+
 #include "devices.h"
 #endif
 

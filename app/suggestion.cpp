@@ -1,5 +1,6 @@
 #include "suggestion.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numeric>
 #include <vector>

@@ -1,8 +1,11 @@
 // What a user may have meant.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace diptych::app {
 

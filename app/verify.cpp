@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -10,9 +11,11 @@
 #include "interrupt.h"
 #include "render/settings_names.h"
 #include "report.h"
+#include "scene/pose.h"
 #include "scene_setup.h"
 #include "verify_paired.h"
 #include "verify_report.h"
+#include "verify_sequence.h"
 
 namespace diptych::app {
 
@@ -27,10 +30,14 @@ constexpr const char* examples = R"(Examples:
   diptych verify cornell.gltf --fresh-seeds --time 3600
   diptych verify cornell.gltf --common-seeds --time 60 --require-pass
   diptych verify cornell.gltf --paired --spp 16
+  diptych verify moving.gltf --backends cpu --integrators restir --against cpu/path --frame 0,1,2,4,8,16 --spp 256
 Renders each side --runs times, every run with a seed of its own, and compares the runs' means by Welch's test: of the image, of all
 tiles together (Fisher), and of the least likely tile. FAIL: more than chance would do, over all pairs together, at --alpha. PASS: no such
 difference, and the intervals are narrow enough for one to be seen. INCONCLUSIVE: neither; more samples would tell. Exit code 1 on FAIL, and
-with --require-pass on INCONCLUSIVE too.)";
+with --require-pass on INCONCLUSIVE too.
+With --frame, --start or --orbit the scene moves as render --frames moves it, and every frame judged counts as a pair. restir's
+chain is then played from frame 0 for each run, as often as --spp / --frame-spp, every time with another seed; other integrators render
+those moments alone.)";
 
 /// "vulkan/path: run 3 of 32", in place on a terminal, elsewhere at each doubling of the time from two seconds on.
 class RunLine {
@@ -65,6 +72,7 @@ private:
 };
 
 void check_options(VerifyOptions& options) {
+    resolve_frames(options);
     if (options.arguments.size.empty()) {
         options.arguments.size = default_size;
     }
@@ -124,6 +132,10 @@ int run_verify(VerifyOptions options) {
     }
     const std::vector<PairName> pairs = plan_pairs(options);
     const Scene scene = prepare_scene(options.arguments);
+    if (moves(scene) && options.frames.empty()) {
+        report_warning(
+            fmt::format("{}: its animations are not played, it is shown at rest: give --frame or --start", scene.name));
+    }
     const std::uint32_t seed =
         options.fresh_seeds && !options.seed_given ? static_cast<std::uint32_t>(std::random_device{}()) : options.seed;
     std::optional<SuiteResult> suite;
@@ -223,6 +235,7 @@ void add_verify(CLI::App& app, Run& run) {
                    "where paths "
                    "decide alike")
         ->excludes(paired);
+    add_sequence_options(*command, *options, *paired);
     command->add_flag("--require-pass", options->require_pass, "Exit 1 on INCONCLUSIVE too");
     add_scene_options(*command, options->arguments);
     command->add_option("--device", request.device, "Vulkan device by index or name; the best by default");

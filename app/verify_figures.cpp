@@ -29,10 +29,6 @@ void paste(Image& target, const Image& source, int x, int y) {
     }
 }
 
-std::string caption(const PairResult& pair) {
-    return text_of(pair.names.a) + " - " + text_of(pair.names.b);
-}
-
 /// -log10 p in hot colours, up to where a single tile would fail; cyan where tiles without noise differ, grey where
 /// they agree.
 Image p_map(const PairResult& pair, const TileGrid& grid) {
@@ -67,7 +63,7 @@ Image p_map(const PairResult& pair, const TileGrid& grid) {
             bar.at(x, y, 0) = hot * static_cast<float>(bar.height - 1 - y) / static_cast<float>(bar.height - 1);
         }
     }
-    const std::string title = caption(pair);
+    const std::string title = text_of(pair.names);
     const std::string label = "-log10 p";
     const int width =
         std::max(map.width + bar_width + 3 * margin + text_width("000", text_scale), text_width(title, text_scale)) +
@@ -107,7 +103,7 @@ Image p_histogram(const PairResult& pair) {
     const double most = std::max({1.0, 2 * expected, *std::max_element(counts.begin(), counts.end())});
     const auto level = [&](double count) { return static_cast<int>(std::lround(count / most * height)); };
     const std::string highest = fmt::format("{:.3g}", most);
-    const std::string title = caption(pair);
+    const std::string title = text_of(pair.names);
     const int left =
         2 * margin + std::max(text_width(highest, text_scale), text_width(fmt::format("{:.3g}", expected), text_scale));
     const int top = margin + 2 * line_height;
@@ -152,6 +148,7 @@ std::vector<std::string> write_suite_figures(const std::string& folder, const Su
     std::vector<std::string> paths;
     for (const PairResult& pair : suite.pairs) {
         std::string name = text_of(pair.names.a) + "-vs-" + text_of(pair.names.b);
+        name += pair.names.frame ? fmt::format("-frame-{}", *pair.names.frame) : "";
         std::replace(name.begin(), name.end(), '/', '-');
         const std::string stem = (std::filesystem::path(folder) / name).string();
         paths.push_back(stem + "-p.png");

@@ -53,6 +53,10 @@ std::string text_of(const SideName& side) {
     return fmt::format("{}/{}", side.backend, side.backend == "oracle" ? side.oracle_mode : name_of(side.integrator));
 }
 
+std::string text_of(const PairName& pair) {
+    return text_of(pair.a) + " - " + text_of(pair.b) + (pair.frame ? fmt::format(", frame {}", *pair.frame) : "");
+}
+
 std::vector<PairName> plan_pairs(const VerifyOptions& options) {
     check_distinct("--backends", options.backends);
     check_distinct("--integrators", options.integrators);
@@ -75,7 +79,13 @@ std::vector<PairName> plan_pairs(const VerifyOptions& options) {
             } else {
                 pair.b.integrator = slash == std::string::npos ? typed : integrator_from_name(choice);
             }
-            pairs.push_back(pair);
+            for (const std::uint32_t frame : options.frames) {
+                pair.frame = frame;
+                pairs.push_back(pair);
+            }
+            if (options.frames.empty()) {
+                pairs.push_back(pair);
+            }
         }
     }
     check_backend_options(options, pairs);

@@ -35,15 +35,21 @@ std::string advice(const PairResult& pair, const VerifyOptions& options) {
     const double image = pair.comparison.half_width_percent / options.max_half_width;
     const double tiles = pair.comparison.tile_half_width_percent / options.max_tile_half_width;
     const double factor = std::max(image, tiles) * std::max(image, tiles);
-    const std::string text = fmt::format(": try --spp {:.0f}", std::ceil(pair.spp * factor));
-    return pair.spp_b == pair.spp ? text : text + fmt::format(" --against-spp {:.0f}", std::ceil(pair.spp_b * factor));
+    const auto enough = [&](double spp) { return std::ceil(spp * factor / options.frame_spp) * options.frame_spp; };
+    const std::string text = fmt::format(": try --spp {:.0f}", enough(pair.spp));
+    return pair.spp_b == pair.spp ? text : text + fmt::format(" --against-spp {:.0f}", enough(pair.spp_b));
+}
+
+/// Characters of the first column.
+int name_width(const VerifyOptions& options) {
+    return options.frames.empty() ? 28 : 39;
 }
 
 void print_pair(const PairResult& pair, const VerifyOptions& options) {
     const TileComparison& c = pair.comparison;
     fmt::print(
-        "{:<28} {:>11} {:>9.4f}  [{:>8.4f}, {:>8.4f}] {:>8.4f} {:>8.4f} {:>5.0f}% {:>9.2g} {:>9.2g} {:>9.2g}  {}\n",
-        text_of(pair.names.a) + " - " + text_of(pair.names.b),
+        "{:<{}} {:>11} {:>9.4f}  [{:>8.4f}, {:>8.4f}] {:>8.4f} {:>8.4f} {:>5.0f}% {:>9.2g} {:>9.2g} {:>9.2g}  {}\n",
+        text_of(pair.names), name_width(options),
         pair.spp == pair.spp_b ? fmt::format("{}", pair.spp) : fmt::format("{}:{}", pair.spp, pair.spp_b),
         c.bias_percent, c.ci95_percent[0], c.ci95_percent[1], c.half_width_percent, pair.verdict.min_detectable_percent,
         100 * c.resolved_share, c.global_p, c.fisher_p, c.min_p, name_of(pair.verdict.verdict));
@@ -69,8 +75,16 @@ void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
                options.arguments.request.scene, settings.width, settings.height, options.runs,
                options.common_seeds ? " of common seeds" : "", suite.grid.columns * suite.grid.rows, options.tile,
                options.tile, suite.seed, suite.seconds);
-    fmt::print("{:<28} {:>11} {:>9}  {:^20} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9}  verdict\n", "pair", "spp", "bias %",
-               "95 % interval", "+-", "detects", "tiles", "image p", "Fisher p", "least p");
+    if (!options.frames.empty()) {
+        const RenderRequest& request = options.arguments.request;
+        fmt::print("A sequence from {:g} s on, {:g} frames a second{}; chains of restir have {} sample{} a frame\n",
+                   request.start, request.fps,
+                   request.orbit != 0 ? fmt::format(", turning by {:g} degrees a frame", request.orbit) : "",
+                   options.frame_spp, options.frame_spp == 1 ? "" : "s");
+    }
+    fmt::print("{:<{}} {:>11} {:>9}  {:^20} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9}  verdict\n", "pair",
+               name_width(options), "spp", "bias %", "95 % interval", "+-", "detects", "tiles", "image p", "Fisher p",
+               "least p");
     for (const PairResult& pair : suite.pairs) {
         print_pair(pair, options);
     }
@@ -105,6 +119,12 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
     json["max_tile_half_width_percent"] = options.max_tile_half_width;
     json["fresh_seeds"] = options.fresh_seeds;
     json["common_seeds"] = options.common_seeds;
+    if (!options.frames.empty()) {
+        json["fps"] = options.arguments.request.fps;
+        json["start"] = options.arguments.request.start;
+        json["orbit"] = options.arguments.request.orbit;
+        json["frame_spp"] = options.frame_spp;
+    }
     json["seed"] = suite.seed;
     json["seconds"] = suite.seconds;
     json["commit"] = build_info::commit;
@@ -114,8 +134,14 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
         nlohmann::ordered_json entry;
         entry["a"] = text_of(pair.names.a);
         entry["b"] = text_of(pair.names.b);
+        if (pair.names.frame) {
+            entry["frame"] = *pair.names.frame;
+            entry["time"] = options.arguments.request.start + *pair.names.frame / options.arguments.request.fps;
+        }
         entry["spp"] = pair.spp;
         entry["spp_b"] = pair.spp_b;
+        entry["mean_a"] = c.mean_a;
+        entry["mean_b"] = c.mean_b;
         entry["bias_percent"] = c.bias_percent;
         entry["ci95_percent"] = c.ci95_percent;
         entry["channel_bias_percent"] = c.channel_bias_percent;

@@ -1,44 +1,91 @@
 #include "verify_sides.h"
 
-#include "backend.h"
-#include "pack/packed_scene.h"
+#include <algorithm>
 
 namespace diptych::app {
 
-VerifySide::VerifySide(const SideName& name, const Scene& scene, const VerifyOptions& options, std::uint32_t first_seed,
-                       std::uint32_t sample_count)
-    : name_(name), tile_(options.tile), first_seed_(first_seed), runs_(options.runs) {
+namespace {
+
+/// Seeds of the chains of one run stand this far apart: 2^32 over the golden ratio, so that no multiple of it comes
+/// near the seeds of other runs, which are neighbours.
+constexpr std::uint32_t chain_seed_step = 0x9e3779b9U;
+
+}  // namespace
+
+VerifySide::VerifySide(const SideName& name, const Scene& scene, const VerifyOptions& options,
+                       const std::vector<std::uint32_t>& frames, std::uint32_t first_seed, std::uint32_t sample_count)
+    : name_(name), tile_(options.tile), first_seed_(first_seed), run_count_(options.runs),
+      frame_spp_(options.frame_spp), frames_(frames),
+      runs_(std::max<std::size_t>(frames.size(), 1), std::vector<RunMeans>(options.runs)) {
     RenderRequest request = options.arguments.request;
     request.backend = name.backend;
     request.settings.integrator = name.integrator;
     request.oracle_mode = name.oracle_mode;
     request.settings.seed = first_seed;
     request.settings.sample_count = sample_count;
+    request.spp = options.frame_spp;
+    request.frames = frames.empty() ? 0 : frames.back() + 1;
     if (name.backend == "vulkan") {
         request.threads = 0;
     } else {
         request.device.clear();
         request.validation = false;
     }
-    packed_ = std::make_unique<PackedScene>(pack_scene(scene, request.settings));
-    renderer_ = make_renderer(scene, *packed_, request);
+    played_ = std::make_unique<PlayedScene>(scene, request);
+}
+
+const std::vector<RunMeans>& VerifySide::runs(std::optional<std::uint32_t> frame) const {
+    return frame ? runs_[static_cast<std::size_t>(std::find(frames_.begin(), frames_.end(), *frame) - frames_.begin())]
+                 : runs_.front();
 }
 
 bool VerifySide::extend(std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook) {
-    for (std::uint32_t run = 0; run < runs_.size(); ++run) {
-        hook(name_, run);
-        renderer_->restart(first_seed_ + run);
-        renderer_->render(spp_, samples, cancel);
-        if (cancel) {
-            return false;
+    if (played_->chained()) {
+        for (std::uint32_t run = 0; run < run_count_ && !cancel; ++run) {
+            hook(name_, run);
+            for (std::uint32_t done = spp_; done < spp_ + samples && !cancel; done += frame_spp_) {
+                play_chain(run, done, cancel);
+            }
         }
-        const Film film = renderer_->film();
-        nonfinite_ += film_totals(film).nonfinite;
-        const RunMeans means = tile_means(film, tile_);
-        runs_[run] = spp_ == 0 ? means : merge_means(runs_[run], spp_, means, samples);
+    } else if (frames_.empty()) {
+        render_runs(0, samples, cancel, hook);
+    } else {
+        for (std::size_t i = 0; i < frames_.size() && !cancel; ++i) {
+            played_->begin_frame(frames_[i], first_seed_);
+            render_runs(i, samples, cancel, hook);
+        }
     }
     spp_ += samples;
-    return true;
+    return !cancel;
+}
+
+void VerifySide::render_runs(std::size_t frame, std::uint32_t samples, const std::atomic<bool>& cancel,
+                             const RunHook& hook) {
+    for (std::uint32_t run = 0; run < run_count_ && !cancel; ++run) {
+        hook(name_, run);
+        played_->renderer().restart(first_seed_ + run);
+        played_->renderer().render(spp_, samples, cancel);
+        keep(frame, run, spp_, samples);
+    }
+}
+
+void VerifySide::play_chain(std::uint32_t run, std::uint32_t done, const std::atomic<bool>& cancel) {
+    const std::uint32_t seed = first_seed_ + run + done / frame_spp_ * chain_seed_step;
+    for (std::uint32_t frame = 0, judged = 0; judged < frames_.size() && !cancel; ++frame) {
+        played_->render_frame(played_->begin_frame(frame, seed), cancel);
+        if (frame == frames_[judged]) {
+            keep(judged, run, done, frame_spp_);
+            ++judged;
+        }
+    }
+}
+
+void VerifySide::keep(std::size_t frame, std::uint32_t run, std::uint32_t done, std::uint32_t samples) {
+    const Film film = played_->renderer().film();
+    nonfinite_ += film_totals(film).nonfinite;
+    const RunMeans means = tile_means(film, tile_);
+    RunMeans& kept = runs_[frame][run];
+    kept = done == 0 ? means : merge_means(kept, done, means, samples);
 }
 
 }  // namespace diptych::app

@@ -4,12 +4,11 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "pack/packed_scene.h"
+#include "played_scene.h"
 #include "render/film_tiles.h"
-#include "render/renderer.h"
-#include "scene/scene.h"
 #include "verify_options.h"
 
 namespace diptych::app {
@@ -19,27 +18,36 @@ using RunHook = std::function<void(const SideName& side, std::uint32_t run)>;
 
 class VerifySide {
 public:
-    /// Run k has the seed first_seed + k. `sample_count` is what a Hammersley set is laid out for. Throws NoDevice and
-    /// Error.
-    VerifySide(const SideName& name, const Scene& scene, const VerifyOptions& options, std::uint32_t first_seed,
-               std::uint32_t sample_count);
+    /// Run k has the seed first_seed + k. `frames` are those of a sequence to be judged, in rising order; none: the
+    /// scene at rest. `sample_count` is what a Hammersley set is laid out for. `scene` must live as long. Throws
+    /// NoDevice and Error.
+    VerifySide(const SideName& name, const Scene& scene, const VerifyOptions& options,
+               const std::vector<std::uint32_t>& frames, std::uint32_t first_seed, std::uint32_t sample_count);
 
-    /// Adds so many samples a pixel to every run; false, and of no use any more, where `cancel` came in between.
+    /// Adds so many samples a pixel to every run of every frame; false, and of no use any more, where `cancel` came in
+    /// between. A run of restir's plays chains anew from frame 0, of frame_spp samples a frame and seeds of their own,
+    /// until the frames judged have their samples.
     bool extend(std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook);
 
     const SideName& name() const { return name_; }
-    const std::vector<RunMeans>& runs() const { return runs_; }
+    const std::vector<RunMeans>& runs(std::optional<std::uint32_t> frame) const;
     std::uint32_t spp() const { return spp_; }
     std::uint64_t nonfinite() const { return nonfinite_; }  // samples dropped, over all runs
-    std::string device() const { return renderer_->device(); }
+    std::string device() const { return played_->renderer().device(); }
 
 private:
+    void render_runs(std::size_t frame, std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook);
+    void play_chain(std::uint32_t run, std::uint32_t done, const std::atomic<bool>& cancel);
+    void keep(std::size_t frame, std::uint32_t run, std::uint32_t done, std::uint32_t samples);
+
     SideName name_;
     int tile_;
     std::uint32_t first_seed_;
-    std::unique_ptr<PackedScene> packed_;  // outlives the renderer, which may read it
-    std::unique_ptr<Renderer> renderer_;
-    std::vector<RunMeans> runs_;
+    std::uint32_t run_count_;
+    std::uint32_t frame_spp_;
+    std::vector<std::uint32_t> frames_;
+    std::unique_ptr<PlayedScene> played_;
+    std::vector<std::vector<RunMeans>> runs_;  // of each frame judged; one at rest
     std::uint32_t spp_ = 0;
     std::uint64_t nonfinite_ = 0;
 };

@@ -34,35 +34,48 @@ struct Stage {
 
 /// A side of several pairs is rendered once. Candidates and references are apart, even where they bear one name.
 struct Sides {
-    std::vector<VerifySide> all;
+    struct Wanted {
+        SideName name;
+        bool is_reference = false;
+        std::vector<std::uint32_t> frames;
+    };
+    std::vector<Wanted> wanted;
+    std::vector<VerifySide> all;  // parallel to wanted
     std::vector<std::uint32_t> seeds;
-    std::vector<bool> is_reference;
     std::vector<std::pair<std::size_t, std::size_t>> of_pair;  // indices
 
     Sides(const Stage& stage, const Scene& scene, const VerifyOptions& options) {
-        std::vector<std::pair<SideName, bool>> known;
-        const auto find = [&](const SideName& name, bool reference) {
-            const auto at = std::find(known.begin(), known.end(), std::pair(name, reference));
-            if (at != known.end()) {
-                return static_cast<std::size_t>(at - known.begin());
-            }
-            known.emplace_back(name, reference);
-            is_reference.push_back(reference);
+        for (const PairName& pair : stage.pairs) {
+            const std::size_t a = want(pair.a, false, pair.frame);
+            of_pair.emplace_back(a, want(pair.b, true, pair.frame));
+        }
+        for (Wanted& side : wanted) {
+            std::sort(side.frames.begin(), side.frames.end());
+            side.frames.erase(std::unique(side.frames.begin(), side.frames.end()), side.frames.end());
             seeds.push_back(stage.seed +
                             (options.common_seeds ? 0 : static_cast<std::uint32_t>(all.size()) * options.runs));
-            all.emplace_back(name, scene, options, seeds.back(), reference ? stage.reference_spp : stage.spp);
-            return all.size() - 1;
-        };
-        for (const PairName& pair : stage.pairs) {
-            const std::size_t a = find(pair.a, false);
-            of_pair.emplace_back(a, find(pair.b, true));
+            all.emplace_back(side.name, scene, options, side.frames, seeds.back(),
+                             side.is_reference ? stage.reference_spp : stage.spp);
         }
+    }
+
+    std::size_t want(const SideName& name, bool is_reference, std::optional<std::uint32_t> frame) {
+        auto at = std::find_if(wanted.begin(), wanted.end(), [&](const Wanted& side) {
+            return side.name == name && side.is_reference == is_reference;
+        });
+        if (at == wanted.end()) {
+            at = wanted.insert(at, {name, is_reference, {}});
+        }
+        if (frame) {
+            at->frames.push_back(*frame);
+        }
+        return static_cast<std::size_t>(at - wanted.begin());
     }
 
     bool extend(std::uint32_t samples, std::uint32_t reference_samples, const std::atomic<bool>& cancel,
                 const RunHook& hook) {
         for (std::size_t i = 0; i < all.size(); ++i) {
-            if (!all[i].extend(is_reference[i] ? reference_samples : samples, cancel, hook)) {
+            if (!all[i].extend(wanted[i].is_reference ? reference_samples : samples, cancel, hook)) {
                 return false;
             }
         }
@@ -70,11 +83,14 @@ struct Sides {
     }
 };
 
-std::vector<TileComparison> compare(const Sides& sides, bool common_seeds, const TileTestOptions& options = {}) {
+std::vector<TileComparison> compare(const std::vector<PairName>& pairs, const Sides& sides, bool common_seeds,
+                                    const TileTestOptions& options = {}) {
     std::vector<TileComparison> comparisons;
     const auto test = common_seeds ? compare_common_runs : compare_runs;
-    for (const auto& [a, b] : sides.of_pair) {
-        comparisons.push_back(test(sides.all[a].runs(), sides.all[b].runs(), options));
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto [a, b] = sides.of_pair[i];
+        const auto frame = pairs[i].frame;
+        comparisons.push_back(test(sides.all[a].runs(frame), sides.all[b].runs(frame), options));
     }
     return comparisons;
 }
@@ -85,25 +101,31 @@ std::uint32_t next_extension(std::uint32_t spp, double rendering_seconds, double
     return share < least_extension || spp >= most_spp ? 0 : static_cast<std::uint32_t>(std::floor(spp * share));
 }
 
-bool render_stage(const Stage& stage, Sides& sides, bool common_seeds, const std::atomic<bool>& cancel,
+/// The next number of samples that chains of so many samples a frame can give.
+std::uint32_t whole_chains(std::uint32_t samples, const VerifyOptions& options) {
+    return (samples + options.frame_spp - 1) / options.frame_spp * options.frame_spp;
+}
+
+bool render_stage(const Stage& stage, Sides& sides, const VerifyOptions& options, const std::atomic<bool>& cancel,
                   const RunHook& hook) {
     const double start = now();
     if (stage.seconds == 0) {
         return sides.extend(stage.spp, stage.reference_spp, cancel, hook);
     }
-    std::uint32_t samples = first_spp;
+    std::uint32_t samples = whole_chains(first_spp, options);
     while (samples > 0) {
         if (!sides.extend(samples, samples, cancel, hook)) {
             return false;
         }
         const double rendering = now() - start;
         const std::vector<TileComparison> comparisons =
-            compare(sides, common_seeds, {.resamplings = 0});  // for their widths
+            compare(stage.pairs, sides, options.common_seeds, {.resamplings = 0});  // for their widths
         if (std::all_of(comparisons.begin(), comparisons.end(),
                         [&](const TileComparison& c) { return has_power(c, stage.limits); })) {
             break;
         }
-        samples = next_extension(sides.all.front().spp(), rendering, start + stage.seconds - now());
+        samples =
+            whole_chains(next_extension(sides.all.front().spp(), rendering, start + stage.seconds - now()), options);
     }
     return true;
 }
@@ -111,10 +133,10 @@ bool render_stage(const Stage& stage, Sides& sides, bool common_seeds, const std
 std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Scene& scene, const VerifyOptions& options,
                                                  const std::atomic<bool>& cancel, const RunHook& hook) {
     Sides sides(stage, scene, options);
-    if (!render_stage(stage, sides, options.common_seeds, cancel, hook)) {
+    if (!render_stage(stage, sides, options, cancel, hook)) {
         return std::nullopt;
     }
-    const std::vector<TileComparison> comparisons = compare(sides, options.common_seeds);
+    const std::vector<TileComparison> comparisons = compare(stage.pairs, sides, options.common_seeds);
     const std::vector<PairVerdict> verdicts = judge(comparisons, stage.limits);
     std::vector<PairResult> results;
     for (std::size_t i = 0; i < stage.pairs.size(); ++i) {

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,7 +16,12 @@ using Numbers = std::vector<double>;
 CLI::Option* add_triple(CLI::App& command, const char* name, const char* type, const char* help,
                         const std::function<void(const glm::dvec3&)>& take) {
     return command
-        .add_option_function<Numbers>(name, [take](const Numbers& n) { take({n[0], n[1], n[2]}); }, help)
+        .add_option_function<Numbers>(
+            name,
+            [take](const Numbers& n) {
+                take({n[0], n[1], n[2]});
+            },
+            help)
         ->type_name(type)
         ->delimiter(',')
         ->expected(3)

@@ -1,8 +1,9 @@
-# diptych_library(NAME FOLDERS folder... INCLUDE dir... [LINK target...])
+# diptych_library(NAME FOLDERS folder... INCLUDE dir... [LINK target...] [PRECOMPILE header...])
 # A static library of the .cpp files that lie directly in the folders; header-only where there are none.
+# It shares common/precompiled.h with the others, unless it names headers of its own to precompile.
 # Sets NAME_SCOPE to the keyword (PUBLIC or INTERFACE) under which its usage requirements are to be stated.
 function(diptych_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "FOLDERS;INCLUDE;LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "FOLDERS;INCLUDE;LINK;PRECOMPILE")
   list(TRANSFORM ARG_FOLDERS APPEND /*.cpp OUTPUT_VARIABLE patterns)
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   if(sources)
@@ -14,5 +15,10 @@ function(diptych_library name)
   endif()
   target_include_directories(${name} ${scope} ${ARG_INCLUDE})
   target_link_libraries(${name} ${scope} diptych_options ${ARG_LINK})
+  if(ARG_PRECOMPILE)
+    target_precompile_headers(${name} PRIVATE ${ARG_PRECOMPILE})
+  elseif(sources)
+    target_precompile_headers(${name} REUSE_FROM diptych_precompiled)
+  endif()
   set(${name}_SCOPE ${scope} PARENT_SCOPE)
 endfunction()

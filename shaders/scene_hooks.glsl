@@ -50,6 +50,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ray_counters
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer path_queries_buffer { PathQuery data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer path_vertices_buffer { PathVertexRecord data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer path_summaries_buffer { PathSummary data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer grouped_geometries_buffer { uvec2 data[]; };
 
 // Mirrored by vk_backend/scene_addresses.h.
 layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
@@ -67,6 +68,7 @@ layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
     path_queries_buffer path_queries;
     path_vertices_buffer path_vertices;
     path_summaries_buffer path_summaries;
+    grouped_geometries_buffer grouped_geometries;
 } addresses;
 
 layout(set = 0, binding = 2, scalar) uniform Constants { RenderConstants constants; };

@@ -1,25 +1,32 @@
-// The scene's acceleration structures: one a mesh, compacted, and one over the instances.
+// The scene's acceleration structures: one a mesh or a group of instances, compacted, and one over the instances.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "buffer.h"
+#include "instance_groups.h"
 #include "pack/packed_scene.h"
 #include "scene_memory.h"
 
 namespace diptych {
 
-/// Meshes' structures, many to a buffer, in the order of PackedScene::meshes. A mesh without triangles has address 0.
+/// Structures, many to a buffer: those of PackedScene::meshes in order, then the groups'. A mesh without triangles has
+/// address 0, and so has one whose instances are all grouped.
 struct BottomLevels {
     std::vector<Buffer> storage;
     std::vector<vk::raii::AccelerationStructureKHR> structures;
     std::vector<vk::DeviceAddress> addresses;
     std::uint64_t bytes = 0;
     std::uint64_t built_bytes = 0;  // before compaction
+    InstanceGroups groups;
+    Buffer grouped_geometries;               // InstanceGroups::geometries, for the shaders
+    std::vector<shared::Instance> standing;  // the packed instances as they were built, where there are groups
 };
 
-/// Over the instances. What builds it stays once it has been built a second time.
+/// Over the packed instances, of which those that are grouped are inactive, and the groups after them. What builds it
+/// stays once it has been built a second time.
 struct TopLevel {
     Buffer storage;
     vk::raii::AccelerationStructureKHR structure = nullptr;
@@ -38,13 +45,20 @@ struct BuildLimits {
 };
 
 BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene,
-                                 const BuildLimits& limits = {});
+                                 const InstanceGroups& groups, const BuildLimits& limits = {});
+
+/// The first grouped instance that is not where it was when its group was built; after packing about another origin that is any of them.
+std::optional<std::size_t> first_moved(const PackedScene& packed, const BottomLevels& bottom);
+
+/// Where an instance stands, as builds take it.
+vk::TransformMatrixKHR transform_of(const shared::Instance& instance);
 
 TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const BottomLevels& bottom);
 
-/// Builds it anew, in its own memory, where any instance stands elsewhere. Not refitted: a refitted structure's quality depends on all
-/// moments before, a built one's on none, and a frame repeated alone must cost and hit what it did in its sequence. Throws Error where
-/// the number of instances is another. Nothing that reads it may be in flight.
+/// Builds it anew, in its own memory, where any instance stands elsewhere. Not refitted: a refitted structure's quality
+/// depends on all moments before, a built one's on none, and a frame repeated alone must cost and hit what it did in
+/// its sequence. Throws Error where the number of instances is another, or one of a group has moved. Nothing that reads
+/// it may be in flight.
 void move_top_level(const Gpu& gpu, const PackedScene& moment, const BottomLevels& bottom, TopLevel& top);
 
 }  // namespace diptych

@@ -2,6 +2,7 @@
 
 #include "acceleration.h"
 #include "commands.h"
+#include "upload.h"
 
 namespace diptych {
 namespace {
@@ -11,7 +12,7 @@ constexpr std::uint64_t structure_alignment =
 
 using Usage = vk::BufferUsageFlagBits;
 
-struct MeshBuild {
+struct StructureBuild {
     std::vector<vk::AccelerationStructureGeometryKHR> geometries;
     std::vector<vk::AccelerationStructureBuildRangeInfoKHR> ranges;
     vk::AccelerationStructureBuildGeometryInfoKHR info;
@@ -39,15 +40,23 @@ vk::AccelerationStructureGeometryKHR describe_geometry(const PackedScene& packed
     return described;
 }
 
-MeshBuild describe_mesh(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene, const MeshRange& mesh) {
-    MeshBuild build;
-    std::vector<std::uint32_t> counts;
-    for (std::uint32_t i = mesh.first_geometry; i < mesh.first_geometry + mesh.geometry_count; ++i) {
+/// Adds a mesh's geometries; in world space where `transform`, the address of a matrix, is not 0.
+void add_mesh(const PackedScene& packed, const SceneMemory& scene, std::size_t mesh, vk::DeviceAddress transform,
+              StructureBuild& build) {
+    const MeshRange& range = packed.meshes[mesh];
+    for (std::uint32_t i = range.first_geometry; i < range.first_geometry + range.geometry_count; ++i) {
         const std::uint32_t count = packed.geometry_extents[i].triangle_count;
         build.geometries.push_back(describe_geometry(packed, scene, i));
+        build.geometries.back().geometry.triangles.transformData.deviceAddress = transform;
         build.ranges.push_back({.primitiveCount = count});
-        counts.push_back(count);
         build.triangles += count;
+    }
+}
+
+void size_build(const Gpu& gpu, StructureBuild& build) {
+    std::vector<std::uint32_t> counts;
+    for (const vk::AccelerationStructureBuildRangeInfoKHR& range : build.ranges) {
+        counts.push_back(range.primitiveCount);
     }
     build.info.type = vk::AccelerationStructureTypeKHR::eBottomLevel;
     build.info.flags = vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace |
@@ -60,7 +69,35 @@ MeshBuild describe_mesh(const Gpu& gpu, const PackedScene& packed, const SceneMe
         build.structure_bytes = align_up(sizes.accelerationStructureSize, structure_alignment);
         build.scratch_bytes = align_up(sizes.buildScratchSize, gpu.scratch_alignment);
     }
-    return build;
+}
+
+/// Meshes that no instance needs by itself: all of theirs are grouped.
+std::vector<bool> meshes_grouped_away(const PackedScene& packed, const InstanceGroups& groups) {
+    std::vector<bool> away(packed.meshes.size(), false);
+    for (const bool grouped : {true, false}) {
+        for (std::size_t i = 0; i < packed.instances.size(); ++i) {
+            if (is_grouped(groups, i) == grouped) {
+                away[packed.instance_meshes[i]] = grouped;
+            }
+        }
+    }
+    return away;
+}
+
+/// The matrices of all grouped instances, in the order of the groups.
+Buffer upload_transforms(const Gpu& gpu, const PackedScene& packed, const InstanceGroups& groups) {
+    std::vector<vk::TransformMatrixKHR> transforms;
+    for (const InstanceGroup& group : groups.groups) {
+        for (const std::uint32_t instance : group.instances) {
+            transforms.push_back(transform_of(packed.instances[instance]));
+        }
+    }
+    Uploader uploader(gpu, std::uint64_t{4} << 20U);
+    Buffer buffer = upload_array(gpu, uploader, "transforms of grouped instances",
+                                 std::span<const vk::TransformMatrixKHR>(transforms),
+                                 Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress);
+    uploader.finish();
+    return buffer;
 }
 
 Buffer structure_buffer(const Gpu& gpu, const char* what, std::uint64_t bytes) {
@@ -83,10 +120,10 @@ struct Batch {
     std::vector<std::uint64_t> compacted_bytes;
 };
 
-Batch build_batch(const Gpu& gpu, std::vector<MeshBuild>& builds) {
+Batch build_batch(const Gpu& gpu, std::vector<StructureBuild>& builds) {
     std::uint64_t structure_bytes = 0;
     std::uint64_t scratch_bytes = 0;
-    for (const MeshBuild& build : builds) {
+    for (const StructureBuild& build : builds) {
         structure_bytes += build.structure_bytes;
         scratch_bytes += build.scratch_bytes;
     }
@@ -99,7 +136,7 @@ Batch build_batch(const Gpu& gpu, std::vector<MeshBuild>& builds) {
     std::vector<vk::AccelerationStructureBuildGeometryInfoKHR> infos;
     std::vector<const vk::AccelerationStructureBuildRangeInfoKHR*> ranges;
     std::vector<vk::AccelerationStructureKHR> handles;
-    for (MeshBuild& build : builds) {
+    for (StructureBuild& build : builds) {
         batch.structures.push_back(place_structure(gpu, batch.storage, offset, build.structure_bytes));
         build.info.setGeometries(build.geometries);
         build.info.dstAccelerationStructure = *batch.structures.back();
@@ -128,7 +165,7 @@ Batch build_batch(const Gpu& gpu, std::vector<MeshBuild>& builds) {
     return batch;
 }
 
-void compact_batch(const Gpu& gpu, const Batch& batch, std::vector<std::size_t>& meshes, BottomLevels& levels) {
+void compact_batch(const Gpu& gpu, const Batch& batch, const std::vector<std::size_t>& indices, BottomLevels& levels) {
     std::uint64_t total = 0;
     for (const std::uint64_t bytes : batch.compacted_bytes) {
         total += align_up(bytes, structure_alignment);
@@ -137,54 +174,55 @@ void compact_batch(const Gpu& gpu, const Batch& batch, std::vector<std::size_t>&
     levels.bytes += total;
     levels.built_bytes += batch.storage.size;
     std::uint64_t offset = 0;
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
+    for (std::size_t i = 0; i < indices.size(); ++i) {
         const std::uint64_t bytes = align_up(batch.compacted_bytes[i], structure_alignment);
-        levels.structures[meshes[i]] = place_structure(gpu, levels.storage.back(), offset, bytes);
+        levels.structures[indices[i]] = place_structure(gpu, levels.storage.back(), offset, bytes);
         offset += bytes;
     }
     run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
         full_barrier(commands);
-        for (std::size_t i = 0; i < meshes.size(); ++i) {
+        for (std::size_t i = 0; i < indices.size(); ++i) {
             commands.copyAccelerationStructureKHR({.src = *batch.structures[i],
-                                                   .dst = *levels.structures[meshes[i]],
+                                                   .dst = *levels.structures[indices[i]],
                                                    .mode = vk::CopyAccelerationStructureModeKHR::eCompact});
         }
         full_barrier(commands);
     });
-    for (const std::size_t mesh : meshes) {
-        levels.addresses[mesh] =
-            gpu.device.getAccelerationStructureAddressKHR({.accelerationStructure = *levels.structures[mesh]});
+    for (const std::size_t index : indices) {
+        levels.addresses[index] =
+            gpu.device.getAccelerationStructureAddressKHR({.accelerationStructure = *levels.structures[index]});
     }
 }
 
 }  // namespace
 
 BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene,
-                                 const BuildLimits& limits) {
+                                 const InstanceGroups& groups, const BuildLimits& limits) {
+    const std::size_t count = packed.meshes.size() + groups.groups.size();
     BottomLevels levels;
-    for (std::size_t i = 0; i < packed.meshes.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         levels.structures.emplace_back(nullptr);
     }
-    levels.addresses.resize(packed.meshes.size(), 0);
+    levels.addresses.resize(count, 0);
 
-    std::vector<MeshBuild> builds;
-    std::vector<std::size_t> meshes;
+    std::vector<StructureBuild> builds;
+    std::vector<std::size_t> indices;
     std::uint64_t structure_bytes = 0;
     std::uint64_t scratch_bytes = 0;
     const auto flush = [&] {
         if (!builds.empty()) {
             const Batch batch = build_batch(gpu, builds);
-            compact_batch(gpu, batch, meshes, levels);
+            compact_batch(gpu, batch, indices, levels);
         }
         builds.clear();
-        meshes.clear();
+        indices.clear();
         structure_bytes = 0;
         scratch_bytes = 0;
     };
-    for (std::size_t i = 0; i < packed.meshes.size(); ++i) {
-        MeshBuild build = describe_mesh(gpu, packed, scene, packed.meshes[i]);
+    const auto add = [&](StructureBuild&& build, std::size_t index) {
+        size_build(gpu, build);
         if (build.triangles == 0) {
-            continue;
+            return;
         }
         if (structure_bytes + build.structure_bytes > limits.structure_bytes ||
             scratch_bytes + build.scratch_bytes > limits.scratch_bytes || builds.size() >= limits.meshes) {
@@ -193,9 +231,36 @@ BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, cons
         structure_bytes += build.structure_bytes;
         scratch_bytes += build.scratch_bytes;
         builds.push_back(std::move(build));
-        meshes.push_back(i);
+        indices.push_back(index);
+    };
+    const std::vector<bool> away = meshes_grouped_away(packed, groups);
+    for (std::size_t i = 0; i < packed.meshes.size(); ++i) {
+        if (!away[i]) {
+            StructureBuild build;
+            add_mesh(packed, scene, i, 0, build);
+            add(std::move(build), i);
+        }
+    }
+    const Buffer transforms = upload_transforms(gpu, packed, groups);
+    vk::DeviceAddress transform = transforms.address;
+    for (std::size_t i = 0; i < groups.groups.size(); ++i) {
+        StructureBuild build;
+        for (const std::uint32_t instance : groups.groups[i].instances) {
+            add_mesh(packed, scene, packed.instance_meshes[instance], transform, build);
+            transform += sizeof(vk::TransformMatrixKHR);
+        }
+        add(std::move(build), packed.meshes.size() + i);
     }
     flush();
+    if (!groups.groups.empty()) {
+        levels.groups = groups;
+        levels.standing = packed.instances;
+        Uploader uploader(gpu, std::uint64_t{4} << 20U);
+        levels.grouped_geometries =
+            upload_array(gpu, uploader, "geometries of grouped instances", std::span(groups.geometries),
+                         Usage::eStorageBuffer | Usage::eShaderDeviceAddress);
+        uploader.finish();
+    }
     return levels;
 }
 

@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "vulkan_headers.h"
+namespace vk::raii {
+class Instance;
+class PhysicalDevice;
+}  // namespace vk::raii
 
 namespace diptych {
 

@@ -18,7 +18,8 @@ double seconds_since(Clock::time_point start) {
 // From here to the last line nothing is bound: where memory runs out midway, the renderer refuses to render until it
 // has been given settings that fit.
 void PathRenderer::reconfigure(const PackedScene& packed) {
-    if (packed.instances.size() != top_.described.size() || packed.meshes.size() != bottom_.addresses.size() ||
+    const std::size_t groups = bottom_.groups.groups.size();
+    if (packed.instances.size() + groups != top_.described.size() || packed.meshes.size() + groups != bottom_.addresses.size() ||
         packed.positions.size() * sizeof(shared::vec3) != scene_.positions.size ||
         packed.triangles.size() * sizeof(shared::uvec3) != scene_.triangles.size) {
         throw Error("Vulkan device " + gpu_->name + ": these are the settings of another scene");
@@ -28,7 +29,7 @@ void PathRenderer::reconfigure(const PackedScene& packed) {
     features_ = packed.features;
     const Clock::time_point start = Clock::now();
     in_context("uploading what differs of the scene", [&] { replace_scene(*gpu_, packed, scene_); });
-    in_context("building acceleration structures", [&] { replace_top_levels(packed); });
+    in_context("building acceleration structures", [&] { replace_structures_of(packed); });
     in_context("making the film", [&] { replace_film(); });
     costs_.build_seconds += seconds_since(start);
 
@@ -45,7 +46,11 @@ void PathRenderer::reconfigure(const PackedScene& packed) {
     count_bytes();
 }
 
-void PathRenderer::replace_top_levels(const PackedScene& packed) {
+void PathRenderer::replace_structures_of(const PackedScene& packed) {
+    if (first_moved(packed, bottom_)) {
+        build_structures(packed);
+        return;
+    }
     move_top_level(*gpu_, packed, bottom_, top_);
     if (!packed.keeps_previous) {
         const TopLevel gone = std::exchange(previous_top_, TopLevel());

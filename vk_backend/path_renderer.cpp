@@ -13,6 +13,17 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+InstanceGroups chosen_groups(const Gpu& gpu, const PackedScene& packed, Grouping grouping) {
+    const bool on_cpu = gpu.physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+    const bool wanted = grouping == Grouping::anywhere || (grouping == Grouping::on_gpus && !on_cpu);
+    return wanted ? group_instances(packed) : InstanceGroups{};
+}
+
+PathRendererOptions with_options(PathRendererOptions changes, const VulkanOptions& options) {
+    changes.grouping = options.group_instances ? changes.grouping : Grouping::none;
+    return changes;
+}
+
 }  // namespace
 
 PipelineShaders scene_shaders(Spirv ray_generation, bool alpha) {
@@ -39,19 +50,14 @@ void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipelin
 }
 
 PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes)
-    : PathRenderer(open_gpu({.device = options.device, .validation = validation_wanted(options.validation)}), packed, changes) {}
+    : PathRenderer(open_gpu({.device = options.device, .validation = validation_wanted(options.validation)}), packed,
+                   with_options(changes, options)) {}
 
 PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, const PathRendererOptions& changes)
     : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes), schedule_(packed.constants) {
     const auto start = std::chrono::steady_clock::now();
     in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
-    in_context("building acceleration structures", [&] {
-        bottom_ = build_bottom_levels(*gpu_, packed, scene_);
-        top_ = build_top_level(*gpu_, packed, bottom_);
-        if (packed.keeps_previous) {
-            previous_top_ = build_top_level(*gpu_, packed, bottom_);
-        }
-    });
+    in_context("building acceleration structures", [&] { build_structures(packed); });
     const auto size = glm::ivec2(constants_.size);
     in_context("making the film", [&] {
         film_ = films_.emplace_back(std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_)));
@@ -71,8 +77,15 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
     costs_.compile_seconds = seconds_since(compile_start);
 }
 
+void PathRenderer::build_structures(const PackedScene& packed) {
+    bottom_ = build_bottom_levels(*gpu_, packed, scene_, chosen_groups(*gpu_, packed, changes_.grouping));
+    top_ = build_top_level(*gpu_, packed, bottom_);
+    previous_top_ = packed.keeps_previous ? build_top_level(*gpu_, packed, bottom_) : TopLevel();
+}
+
 void PathRenderer::count_bytes() {
-    costs_.acceleration_bytes = bottom_.bytes + top_.storage.size + previous_top_.storage.size;
+    costs_.acceleration_bytes =
+        bottom_.bytes + bottom_.grouped_geometries.size + top_.storage.size + previous_top_.storage.size;
     costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + films_.size() * film_bytes(*film_) +
                    resampling_memory_bytes(*resampling_);
 }
@@ -98,6 +111,7 @@ void PathRenderer::begin_film() {
 
 SceneAddresses PathRenderer::addresses(const FilmMemory& film) const {
     SceneAddresses all = scene_addresses(scene_);
+    all.grouped_geometries = bottom_.grouped_geometries.address;
     enter_film(all, film);
     enter_resampling(all, *resampling_);
     return all;
@@ -108,13 +122,14 @@ TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) cons
     const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
     const bool alpha = (features_ & shared::FEATURE_ALPHA) != 0;
     TracePipeline pipeline =
-        make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha), features_, record_rays);
+        make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha),
+                      {.features = features_, .record_rays = record_rays ? 1U : 0U, .groups = bottom_.groups.groups.empty() ? 0U : 1U});
     save_pipeline_cache(cache, cache_path);
     return pipeline;
 }
 
 const TracePipeline& PathRenderer::pipeline(Spirv ray_generation) {
-    const auto key = std::pair(ray_generation.data(), features_);
+    const auto key = std::tuple(ray_generation.data(), features_, !bottom_.groups.groups.empty());
     if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
         return found->second;
     }

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "../shaders/dispatch.h"
@@ -21,10 +22,14 @@
 
 namespace diptych {
 
+/// Whether instances that stand still are gathered (instance_groups.h): on a GPU, where that pays (decision 0010), or for a test anywhere.
+enum class Grouping { none, on_gpus, anywhere };
+
 /// What tests change.
 struct PathRendererOptions {
     Spirv ray_generation;            // instead of path.rgen
     std::uint64_t slice_budget = 0;  // pixel samples a dispatch, whatever the measured speed
+    Grouping grouping = Grouping::on_gpus;
 };
 
 class PathRenderer final : public Renderer {
@@ -65,7 +70,8 @@ private:
     void choose_pipelines();
     void bind(const PackedScene& packed);
     void require_bound() const;
-    void replace_top_levels(const PackedScene& packed);
+    void build_structures(const PackedScene& packed);
+    void replace_structures_of(const PackedScene& packed);
     void replace_film();
     void count_bytes();
     void begin_film();
@@ -93,7 +99,7 @@ private:
     std::vector<std::shared_ptr<FilmMemory>> films_;  // of the present size and layers; one is film_, the others may be looked at
     std::shared_ptr<FilmMemory> film_;
     PipelineLayout layout_;
-    std::map<std::pair<const std::uint32_t*, std::uint32_t>, TracePipeline> pipelines_;  // by ray generation shader and features
+    std::map<std::tuple<const std::uint32_t*, std::uint32_t, bool>, TracePipeline> pipelines_;  // by ray generation shader, features, groups
     const TracePipeline* path_ = nullptr;
     std::shared_ptr<ResamplingMemory> resampling_;
     std::array<const TracePipeline*, resampling_stages> stages_{};

@@ -11,7 +11,7 @@ namespace diptych {
 namespace {
 
 using Stage = vk::ShaderStageFlagBits;
-constexpr vk::ShaderStageFlags reading_stages = Stage::eRaygenKHR | Stage::eAnyHitKHR;
+constexpr vk::ShaderStageFlags reading_stages = Stage::eRaygenKHR | Stage::eClosestHitKHR | Stage::eAnyHitKHR;
 
 vk::RayTracingShaderGroupCreateInfoKHR general_group(std::uint32_t stage) {
     return {.type = vk::RayTracingShaderGroupTypeKHR::eGeneral,
@@ -92,14 +92,15 @@ PipelineLayout make_pipeline_layout(const Gpu& gpu) {
 }
 
 TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const vk::raii::PipelineCache& cache,
-                            const PipelineShaders& shaders, std::uint32_t features, bool record_rays) {
-    const std::array<std::uint32_t, 2> constants = {features, record_rays ? 1U : 0U};
-    const std::array<vk::SpecializationMapEntry, 2> entries = {{
+                            const PipelineShaders& shaders, const PipelineConstants& constants) {
+    const std::array<std::uint32_t, 3> values = {constants.features, constants.record_rays, constants.groups};
+    const std::array<vk::SpecializationMapEntry, 3> entries = {{
         {.constantID = 0, .offset = 0, .size = 4},
         {.constantID = 1, .offset = 4, .size = 4},
+        {.constantID = 2, .offset = 8, .size = 4},
     }};
     vk::SpecializationInfo specialization;
-    specialization.setMapEntries(entries).setData<std::uint32_t>(constants);
+    specialization.setMapEntries(entries).setData<std::uint32_t>(values);
 
     std::vector<vk::raii::ShaderModule> modules;
     std::vector<vk::PipelineShaderStageCreateInfo> stages;

@@ -36,9 +36,15 @@ struct TracePipeline {
     vk::StridedDeviceAddressRegionKHR hit;
 };
 
-/// `features` and `record_rays` are the specialization constants 0 and 1.
+/// The specialization constants, in order.
+struct PipelineConstants {
+    std::uint32_t features = 0;
+    std::uint32_t record_rays = 0;  // 0 or 1
+    std::uint32_t groups = 0;       // 1 where instances may be grouped
+};
+
 TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const vk::raii::PipelineCache& cache,
-                            const PipelineShaders& shaders, std::uint32_t features, bool record_rays);
+                            const PipelineShaders& shaders, const PipelineConstants& constants);
 
 /// Traces width x height rays.
 void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::uint32_t width,

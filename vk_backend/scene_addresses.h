@@ -23,6 +23,7 @@ struct SceneAddresses {
     std::uint64_t path_queries = 0;
     std::uint64_t path_vertices = 0;
     std::uint64_t path_summaries = 0;
+    std::uint64_t grouped_geometries = 0;
 };
 
 }  // namespace diptych

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <string_view>
 
+#include "vulkan_headers.h"
+
 namespace diptych {
 namespace {
 

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "vulkan_headers.h"
+namespace vk {
+struct DebugUtilsMessengerCreateInfoEXT;
+}  // namespace vk
 
 namespace diptych {
 

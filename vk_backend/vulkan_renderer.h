@@ -15,8 +15,9 @@ namespace diptych {
 struct Gpu;
 
 struct VulkanOptions {
-    std::string device;       // "" the best, else an index or a part of the name
-    bool validation = false;  // core and synchronisation validation; DIPTYCH_VALIDATION=1 asks for it too
+    std::string device;           // "" the best, else an index or a part of the name
+    bool validation = false;      // core and synchronisation validation; DIPTYCH_VALIDATION=1 asks for it too
+    bool group_instances = true;  // see instance_groups.h; the picture is the same
 };
 
 /// Uploads the scene, builds its acceleration structures and compiles its pipeline; `packed` is not needed afterwards.

@@ -84,8 +84,8 @@ double fly_speed(double scene_diagonal) {
 }
 
 void pan(Camera& camera, const glm::dvec2& from, const glm::dvec2& to, double aspect, double depth) {
-    const glm::dvec2 shift = (centred(from) - centred(to)) * half_extent(camera, aspect) *
-                             (camera.orthographic ? 1.0 : depth);
+    const glm::dvec2 shift =
+        (centred(from) - centred(to)) * half_extent(camera, aspect) * (camera.orthographic ? 1.0 : depth);
     fly(camera, {shift.x, shift.y, 0});
 }
 

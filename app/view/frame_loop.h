@@ -30,11 +30,12 @@ public:
     ViewState& state() { return state_; }
     const LoadedScene& scene() const { return scene_; }
 
-    /// Once a frame, `now` in seconds of a steady clock: plays the animation, takes over a scene that has loaded, posts the state to the
-    /// panels that are shown where it changed. A panel that is not shown rests.
+    /// Once a frame, `now` in seconds of a steady clock: plays the animation, takes over a scene that has loaded, posts
+    /// the state to the panels that are shown where it changed. A panel that is not shown rests.
     void step(double now);
 
-    /// Loads another file, or a panorama as light of the present one. The present scene stays until then, and where that fails.
+    /// Loads another file, or a panorama as light of the present one. The present scene stays until then, and where
+    /// that fails.
     void open_scene(const std::string& path);
     void open_environment(const std::string& path);
 

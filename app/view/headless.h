@@ -16,8 +16,9 @@ struct HeadlessOptions {
     bool json = false;
 };
 
-/// Orbits for half of the frames, rests for the others, and says how long they took. Each frame ends when the samples that it asked for are
-/// there and, where there is a Vulkan device, on its picture. Returns the exit code. Throws Error, NoDevice.
+/// Orbits for half of the frames, rests for the others, and says how long they took. Each frame ends when the samples
+/// that it asked for are there and, where there is a Vulkan device, on its picture. Returns the exit code. Throws
+/// Error, NoDevice.
 int run_headless(const HeadlessOptions& options, LoadedScene scene);
 
 }  // namespace diptych::app

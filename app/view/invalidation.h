@@ -18,7 +18,8 @@ enum class Invalidation {
 /// Fields that decide no sample (files, backend, exposure) count for nothing.
 Invalidation invalidation(const RenderedState& before, const RenderedState& after);
 
-/// A light that is there or not is a matter of settings, since it changes what is packed; what it is like is one of the moment.
+/// A light that is there or not is a matter of settings, since it changes what is packed; what it is like is one of the
+/// moment.
 bool same_settings(const RenderSettings& a, const RenderSettings& b);
 
 }  // namespace diptych::app

@@ -27,7 +27,7 @@ struct LoadedScene {
     Bounds bounds;          // at rest
     std::vector<std::filesystem::path> files;  // that it is made of
     std::vector<FileStamp> stamps;             // of these, just before they were read
-    bool reloaded = false;  // because a file changed: camera and settings stay
+    bool reloaded = false;                     // because a file changed: camera and settings stay
 };
 
 /// Loads on the calling thread. Throws Error.
@@ -43,7 +43,8 @@ public:
     /// Loads the request's scene and environment in the background; takes the place of a request that still waits.
     void open(RenderRequest request);
 
-    /// Watches these files, four times a second, and opens the request again once they have changed and then held still for one look.
+    /// Watches these files, four times a second, and opens the request again once they have changed and then held still
+    /// for one look.
     void watch(const LoadedScene& loaded);
 
     /// What has come of it since the last call: a scene, or else an error line. Neither while nothing is done.
@@ -66,8 +67,8 @@ private:
     std::string loading_;
     RenderRequest watched_request_;
     std::vector<std::filesystem::path> watched_;
-    std::vector<FileStamp> stamps_;   // as loaded
-    std::vector<FileStamp> changing_; // as of the last look, while they change
+    std::vector<FileStamp> stamps_;    // as loaded
+    std::vector<FileStamp> changing_;  // as of the last look, while they change
     std::uint64_t generation_ = 1;
     bool stop_ = false;
     std::thread thread_;

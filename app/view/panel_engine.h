@@ -14,10 +14,12 @@
 
 namespace diptych::app {
 
-/// The scene as the state has it: its moment, its lights, its camera. `scene` is a copy of `loaded`, at any moment. Throws Error.
+/// The scene as the state has it: its moment, its lights, its camera. `scene` is a copy of `loaded`, at any moment.
+/// Throws Error.
 void put_scene(const Scene& loaded, const RenderedState& state, Scene& scene);
 
-/// What a panel renders the state with: the preview's size, its own seed, and what chains of frames need and cannot have.
+/// What a panel renders the state with: the preview's size, its own seed, and what chains of frames need and cannot
+/// have.
 RenderSettings panel_settings(const RenderSettings& settings, std::uint32_t seed_offset, int divisor);
 
 /// Used by one thread. What goes wrong is in the shots; nothing but record_path and film throws.
@@ -40,7 +42,8 @@ public:
     /// Whether the job is one of many that follow one another, and has shown nothing yet.
     bool owes_first_sample() const { return wants_samples() && job_->moving && samples_ == 0; }
 
-    /// One sample of a new picture, else as many as fit a frame, and a shot of them. A cancel leaves the film for the next job to clear.
+    /// One sample of a new picture, else as many as fit a frame, and a shot of them. A cancel leaves the film for the
+    /// next job to clear.
     void advance(const std::atomic<bool>& cancel);
 
     RecordedPath record_path(shared::PathQuery query, std::uint32_t seed);
@@ -85,10 +88,10 @@ private:
     PanelSpeed speed_;
     bool relearns_ = false;  // the speed is that of other settings
     int divisor_ = 1;
-    std::uint32_t first_ = 0;    // index of the picture's first sample
-    std::uint32_t samples_ = 0;  // of the picture
-    bool unsettled_ = false;     // its next samples are to look back to this same moment
-    bool spoiled_ = false;       // some pixels have samples of a chunk that was cut short
+    std::uint32_t first_ = 0;          // index of the picture's first sample
+    std::uint32_t samples_ = 0;        // of the picture
+    bool unsettled_ = false;           // its next samples are to look back to this same moment
+    bool spoiled_ = false;             // some pixels have samples of a chunk that was cut short
     Pace host_films_{1.0 / 30, 0.25};  // of renderers without a film on a device
     Pace looks_{0.25, 0.05};           // at figures
     Pace device_looks_{1, 0.02};

@@ -106,9 +106,7 @@ void PanelWorker::run(RendererFactory factory) {
     });
     std::unique_lock lock(mutex_);
     while (true) {
-        wake_.wait(lock, [&] {
-            return stop_ || waiting_ || factory_ || !requests_.empty() || engine.wants_samples();
-        });
+        wake_.wait(lock, [&] { return stop_ || waiting_ || factory_ || !requests_.empty() || engine.wants_samples(); });
         auto requests = std::exchange(requests_, {});
         if (stop_) {
             lock.unlock();

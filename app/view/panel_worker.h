@@ -1,4 +1,5 @@
-// One panel at work: a thread that owns a Renderer, takes the newest job, does the least that it asks for, and publishes what has grown.
+// One panel at work: a thread that owns a Renderer, takes the newest job, does the least that it asks for, and
+// publishes what has grown.
 #pragma once
 
 #include <condition_variable>
@@ -31,35 +32,36 @@ struct FilmFigures {
     std::uint32_t spp = 0;
     int width = 0;
     int height = 0;
-    Rgb mean{};                          // radiance, of the image
-    std::optional<Rgb> standard_error;   // of that mean; none where no moments are kept
-    std::optional<double> relmse;        // estimated, likewise
+    Rgb mean{};                         // radiance, of the image
+    std::optional<Rgb> standard_error;  // of that mean; none where no moments are kept
+    std::optional<double> relmse;       // estimated, likewise
     std::uint64_t nonfinite = 0;
     std::uint64_t rays = 0;
 };
 
-/// What a panel has to show; does not change once published. `film` and `device_film` stay as the last that there was while errors last.
+/// What a panel has to show; does not change once published. `film` and `device_film` stay as the last that there was
+/// while errors last.
 struct PanelShot {
     std::uint64_t version = 0;  // of the job that it shows; 0 before the first
     RenderedState state;        // of that job
     int width = 0;              // of the film, pixels: smaller than the state's in previews
     int height = 0;
-    int divisor = 1;            // by which
+    int divisor = 1;  // by which
     std::uint32_t spp = 0;
-    bool correlated = false;    // a chain's: samples depend on one another, so that no standard error is known
+    bool correlated = false;           // a chain's: samples depend on one another, so that no standard error is known
     std::shared_ptr<const Film> film;  // on the host; of Vulkan only as often as it was looked at: figures say of when
     std::shared_ptr<const DeviceFilm> device_film;  // Vulkan's, else null
-    FilmFigures figures;        // of `film`
-    double samples_per_second = 0;  // over all pixels
+    FilmFigures figures;                            // of `film`
+    double samples_per_second = 0;                  // over all pixels
     double rays_per_second = 0;
     double frame_milliseconds = 0;  // of the last samples taken in one go
     std::vector<PassTime> passes;   // seconds a sample, as of late
     RendererCosts costs;
-    std::string backend;      // "cpu", "vulkan"
-    std::string device;       // the device's own name
-    std::string busy;         // "building acceleration structures", "compiling pipelines"; empty while sampling
-    std::string error;        // one line; the panel stands still until another job or a recovery
-    bool device_lost = false; // the error asks for recover()
+    std::string backend;       // "cpu", "vulkan"
+    std::string device;        // the device's own name
+    std::string busy;          // "building acceleration structures", "compiling pipelines"; empty while sampling
+    std::string error;         // one line; the panel stands still until another job or a recovery
+    bool device_lost = false;  // the error asks for recover()
 };
 
 /// A film with what its file is to say of itself.
@@ -81,7 +83,8 @@ public:
     PanelWorker(const PanelWorker&) = delete;
     PanelWorker& operator=(const PanelWorker&) = delete;
 
-    /// Takes the place of a job that still waits. One that is being rendered is cut short, a moving one not before its first whole sample.
+    /// Takes the place of a job that still waits. One that is being rendered is cut short, a moving one not before its
+    /// first whole sample.
     void post(ViewJob job);
 
     /// The latest; never null.
@@ -90,13 +93,14 @@ public:
     /// Called on the worker's thread after every shot, say to wake who waits for it. Set before the first job.
     void on_shot(std::function<void()> hook);
 
-    /// Between two samples; the film stays as it is. Pixels count in the full picture: of a preview it is the one that covers them. The
-    /// futures throw Error where there is no renderer, or it keeps no record.
+    /// Between two samples; the film stays as it is. Pixels count in the full picture: of a preview it is the one that
+    /// covers them. The futures throw Error where there is no renderer, or it keeps no record.
     std::future<RecordedPath> record_path(const shared::PathQuery& query, std::uint32_t seed);
     /// The film as it is.
     std::future<KeptFilm> film();
 
-    /// Goes on with a renderer made anew by this factory, after a lost device; the last film is shown until there is another.
+    /// Goes on with a renderer made anew by this factory, after a lost device; the last film is shown until there is
+    /// another.
     void recover(RendererFactory factory);
 
     std::uint32_t seed_offset() const { return seed_offset_; }
@@ -110,9 +114,9 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::optional<ViewJob> waiting_;
-    std::optional<RenderedState> taken_;  // of the job at hand
+    std::optional<RenderedState> taken_;                       // of the job at hand
     std::vector<std::function<void(PanelEngine*)>> requests_;  // null: there is no engine any more
-    std::optional<RendererFactory> factory_;  // for the thread to take
+    std::optional<RendererFactory> factory_;                   // for the thread to take
     std::function<void()> hook_;
     std::shared_ptr<const PanelShot> shot_ = std::make_shared<PanelShot>();
     std::atomic<bool> cancel_ = false;

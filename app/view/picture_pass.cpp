@@ -58,9 +58,8 @@ void PicturePass::draw(const ShownState& shown, const PanelShot* cpu, const Pane
     request.left = device.film_of(cpu != nullptr ? cpu : vulkan);
     request.right = device.film_of(cpu != nullptr ? vulkan : nullptr);
     request.difference = shown.panel == ShownPanel::difference;
-    request.divider = shown.panel == ShownPanel::split
-                          ? static_cast<std::uint32_t>(std::lround(shown.divider * width))
-                          : columns;
+    request.divider =
+        shown.panel == ShownPanel::split ? static_cast<std::uint32_t>(std::lround(shown.divider * width)) : columns;
     request.tonemap = shown.tonemap;
     request.exposure_ev = static_cast<float>(shown.exposure);
     run_commands(*device.gpu, [&](const vk::raii::CommandBuffer& commands) {

@@ -10,7 +10,8 @@
 
 namespace diptych::app {
 
-/// The looks of a running test: its z wanders as samples come, so only what hardly ever happens by chance is called out.
+/// The looks of a running test: its z wanders as samples come, so only what hardly ever happens by chance is called
+/// out.
 enum class Agreement {
     waiting,     // not the same picture, or too few samples yet
     correlated,  // chains: their spread says nothing of the error
@@ -21,10 +22,10 @@ enum class Agreement {
 
 struct VerificationLight {
     Agreement agreement = Agreement::waiting;
-    Rgb z{};            // Welch's, of each channel's image mean, first panel minus second; 0 while waiting
-    double largest = 0; // |z| of the worst channel
-    double p = 1;       // of it, over three channels (Šidák)
-    std::string text;   // "z = 0.8: agree", "waiting for 16 spp on both"
+    Rgb z{};             // Welch's, of each channel's image mean, first panel minus second; 0 while waiting
+    double largest = 0;  // |z| of the worst channel
+    double p = 1;        // of it, over three channels (Šidák)
+    std::string text;    // "z = 0.8: agree", "waiting for 16 spp on both"
 };
 
 /// Samples a pixel of each panel before anything is said.

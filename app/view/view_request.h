@@ -6,8 +6,8 @@
 
 namespace diptych::app {
 
-/// The request with which `render` shows what the state shows: viewpoint and lens where they are not those of the scene's own camera, and the
-/// moment where the scene moves. `loaded` is the state's scene.
+/// The request with which `render` shows what the state shows: viewpoint and lens where they are not those of the
+/// scene's own camera, and the moment where the scene moves. `loaded` is the state's scene.
 RenderRequest view_request(const RenderedState& state, const Scene& loaded);
 
 }  // namespace diptych::app

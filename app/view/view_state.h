@@ -54,9 +54,10 @@ struct ViewState {
     RenderedState rendered;
     ShownState shown;
     AnimationState animation;
-    bool follows_camera = true;  // the scene's own camera, where an animation moves it; an input to the camera ends that
-    glm::dvec3 pivot{0};         // that the camera orbits about
-    bool interacting = false;    // changes keep coming (a drag, a key held, a slider held): previews, not full pictures
+    bool follows_camera =
+        true;                  // the scene's own camera, where an animation moves it; an input to the camera ends that
+    glm::dvec3 pivot{0};       // that the camera orbits about
+    bool interacting = false;  // changes keep coming (a drag, a key held, a slider held): previews, not full pictures
     double frames_per_second = 60;
     bool paused = false;  // no samples are taken: minimised
     bool keeps_hidden = false;  // panels that are not shown follow the state too, without samples: paths are replayed on both

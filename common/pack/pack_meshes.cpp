@@ -111,6 +111,7 @@ void pack_instances(const Scene& scene, PackedScene& packed) {
         packed.instance_meshes.push_back(static_cast<std::uint32_t>(instance.mesh));
         packed.scene_instances.push_back(static_cast<std::uint32_t>(i));
         packed.instance_shown.push_back(shown ? 1 : 0);
+        packed.instance_moves.push_back(instance.node == none ? 0 : 1);
     }
     require_indexable(scene, packed.instances.size(), "instances");
 }

@@ -47,6 +47,7 @@ struct PackedScene : shared::SceneBuffers {
     std::vector<GeometryExtent> geometry_extents;  // parallel to geometries
     std::vector<std::uint32_t> instance_meshes;    // parallel to instances: index into meshes
     std::vector<std::uint8_t> instance_shown;      // parallel to instances: 0 where no ray may hit it, flat as it is just now
+    std::vector<std::uint8_t> instance_moves;      // parallel to instances: 0 where it stands still at every moment
     shared::RenderConstants constants{};
     std::vector<std::string> warnings;  // one line each: what was left out because it cannot be rendered
     std::uint32_t features = 0;         // FEATURE_… bits that the scene and the settings need, or all of them if generic
@@ -68,6 +69,11 @@ struct PackedScene : shared::SceneBuffers {
 /// Whether rays may hit an instance; one that was added by hand always shows.
 inline bool is_shown(const PackedScene& packed, std::size_t instance) {
     return instance >= packed.instance_shown.size() || packed.instance_shown[instance] != 0;
+}
+
+/// Whether an instance may stand elsewhere at another moment; one that was added by hand may.
+inline bool may_move(const PackedScene& packed, std::size_t instance) {
+    return instance >= packed.instance_moves.size() || packed.instance_moves[instance] != 0;
 }
 
 /// Bytes of every buffer together.

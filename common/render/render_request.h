@@ -31,6 +31,7 @@ struct RenderRequest {
     std::string tonemap = "none";
     int threads = 0;  // cpu, oracle; 0 is one a core
     bool validation = false;
+    bool group_instances = true;  // vulkan; off to measure what it gains
     std::uint32_t spp = 64;  // 0 where `seconds` is the limit
     double seconds = 0;
     double target_error = 0;  // relMSE at which to stop, as the film's standard errors have it; 0 is none

@@ -69,7 +69,8 @@ public:
 
     /// Goes on with another moment of its scene: `moment` is what it was made from, after pack_moment, or a copy with the same meshes.
     /// Takes only what moves. Film and seed stay; restart begins a new picture. The CPU panel refers to `moment` from then on, and to
-    /// the meshes of the first. Throws Error where the counts differ.
+    /// the meshes of the first. Throws Error where the counts differ, and
+    /// may where an instance has moved that PackedScene::instance_moves said would not.
     virtual void move_to(const PackedScene& moment) = 0;
 
     /// Goes on with other settings of the same scene: `packed` is pack_scene of it under them. The film begins anew with packed.constants.seed

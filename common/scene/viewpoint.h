@@ -12,15 +12,16 @@ namespace diptych {
 struct Viewpoint {
     std::optional<glm::dvec3> eye;  // and look_at: one goes with the other
     std::optional<glm::dvec3> look_at;
-    std::optional<glm::dvec3> up;  // +Y by default; goes with them
-    std::optional<double> fov;     // degrees, vertical; perspective cameras
+    std::optional<glm::dvec3> up;       // +Y by default; goes with them
+    std::optional<double> fov;          // degrees, vertical; perspective cameras
     std::optional<double> view_height;  // metres, of the whole view; orthographic cameras
 
     bool operator==(const Viewpoint&) const = default;
 };
 
-/// Puts the camera there; one that an animation moved hangs in nothing afterwards. Throws Error, naming the option, where eye and look_at
-/// are one point or `up` is parallel to the line between them, a part is missing, or the camera is of the other kind.
+/// Puts the camera there; one that an animation moved hangs in nothing afterwards. Throws Error, naming the option,
+/// where eye and look_at are one point or `up` is parallel to the line between them, a part is missing, or the camera
+/// is of the other kind.
 void place_at(const Viewpoint& viewpoint, Camera& camera);
 
 /// The viewpoint that puts a camera of the same kind where this one is, to rounding. It looks at

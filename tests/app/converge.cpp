@@ -74,8 +74,12 @@ ProcessResult converge(const TemporaryFolder& folder, const std::string& scene, 
     return run_diptych(folder, arguments);
 }
 
-const std::vector<std::string> small = {"--methods", "cpu:direct:independent,cpu:path:hammersley", "--spp-max", "9", "--runs", "4",
-                                        "--size", "20x16", "--max-depth", "3", "--json"};
+const std::vector<std::string> small = {"--methods",   "cpu:direct:independent,cpu:path:hammersley",
+                                        "--spp-max",   "9",
+                                        "--runs",      "4",
+                                        "--size",      "20x16",
+                                        "--max-depth", "3",
+                                        "--json"};
 
 }  // namespace
 
@@ -89,8 +93,9 @@ TEST_CASE("converge measures, plots and writes a page", "[app]") {
     const auto at = [&](const std::string& name) { return folder.file("report/" + name); };
     const auto rows = read_csv(at("results.csv"));
     CHECK(rows.size() == 2 * 4 * 4);  // methods, runs, 1 2 4 8 samples
-    CHECK(columns_of(at("results.csv")) == words_of("method,run,seed,spp,device_seconds,wall_seconds,mse,relmse,relmse_trimmed,"
-                                                    "trimmed_energy,nonfinite,rays"));
+    CHECK(columns_of(at("results.csv")) ==
+          words_of("method,run,seed,spp,device_seconds,wall_seconds,mse,relmse,relmse_trimmed,"
+                   "trimmed_energy,nonfinite,rays"));
     REQUIRE(json.at("methods").size() == 2);
     for (const Json& method : json.at("methods")) {
         REQUIRE(method.at("checkpoints").size() == 4);
@@ -148,23 +153,27 @@ TEST_CASE("converge measures, plots and writes a page", "[app]") {
 TEST_CASE("converge goes on where it was stopped, and finds what it would have found", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const std::vector<std::string> plan = {"--methods", "cpu:path", "--spp-max", "32", "--runs", "6", "--size", "32", "--json"};
+    const std::vector<std::string> plan = {"--methods", "cpu:path", "--spp-max", "32",    "--runs",
+                                           "6",         "--size",   "32",        "--json"};
     REQUIRE(converge(folder, scene, "whole", plan).exit_code == 0);
     std::vector<std::string> arguments = {"converge", scene, "-o", folder.file("stopped")};
     arguments.insert(arguments.end(), plan.begin(), plan.end());
-    {
+    ProcessResult stopped;
+    for (int trial = 0; trial < 5 && stopped.exit_code != 130;
+         ++trial) {  // on a busy machine it may end before it hears of it
+        std::filesystem::remove_all(folder.file("stopped"));
         Process process(folder, arguments);
         for (int i = 0; i < 6000 && read_csv(folder.file("stopped/results.csv")).empty(); ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
         process.send(SIGINT);
-        const ProcessResult stopped = process.finish();
-        INFO(stopped.err);
-        CHECK(stopped.exit_code == 130);
-        CHECK(stopped.err.find("the same command goes on") != std::string::npos);
-        CHECK(Json::parse(stopped.out).at("interrupted") == true);
-        CHECK(html_fault(file_text(folder.file("stopped/index.html"))) == "");
+        stopped = process.finish();
     }
+    INFO(stopped.err);
+    REQUIRE(stopped.exit_code == 130);
+    CHECK(stopped.err.find("the same command goes on") != std::string::npos);
+    CHECK(Json::parse(stopped.out).at("interrupted") == true);
+    CHECK(html_fault(file_text(folder.file("stopped/index.html"))) == "");
     const std::size_t before = read_csv(folder.file("stopped/results.csv")).size();
     CHECK(before % 6 == 0);  // whole runs
     CHECK(before < 6 * 6);
@@ -193,15 +202,16 @@ TEST_CASE("converge tells a bias from noise, and a reference without errors from
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const auto reference = [&](const std::string& name, std::vector<std::string> more) {
-        std::vector<std::string> arguments = {"render", scene, "-o", folder.file(name), "--size", "24x24", "--spp", "1024"};
+        std::vector<std::string> arguments = {"render", scene,   "-o",    folder.file(name),
+                                              "--size", "24x24", "--spp", "1024"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         REQUIRE(run_diptych(folder, arguments).exit_code == 0);
         return folder.file(name);
     };
     const auto measured = [&](const std::string& out, const std::string& file) {
-        const ProcessResult result =
-            converge(folder, scene, out, {"--methods", "cpu:path:independent", "--spp-max", "32", "--runs", "8", "--reference", file,
-                                          "--max-depth", "2", "--json"});
+        const ProcessResult result = converge(folder, scene, out,
+                                              {"--methods", "cpu:path:independent", "--spp-max", "32", "--runs", "8",
+                                               "--reference", file, "--max-depth", "2", "--json"});
         INFO(result.err);
         REQUIRE(result.exit_code == 0);
         const Json json = Json::parse(result.out);
@@ -219,19 +229,23 @@ TEST_CASE("converge tells a bias from noise, and a reference without errors from
     CHECK(bare.at("bias").at("text").get<std::string>().find("reference's own noise") != std::string::npos);
 }
 
-TEST_CASE("converge fits the samples to the time", "[app]") {
+TEST_CASE("converge fits the samples to the time", "[app][timed]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const ProcessResult result = converge(folder, scene, "timed", {"--methods", "cpu:brdf", "--reference", "oracle", "--time", "0.05",
-                                                                   "--runs", "2", "--size", "16", "--max-depth", "2", "--json"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
-    const Json json = Json::parse(result.out);
-    const Json& points = json.at("methods")[0].at("checkpoints");
-    CHECK(std::has_single_bit(points.back().at("spp").get<unsigned>()));
-    CHECK(points.back().at("spp").get<int>() > 4);
-    CHECK(points.back().at("device_seconds").get<double>() < 0.3);
-    CHECK(json.at("reference").at("method") == "oracle");
+    bool fits = false;
+    for (int trial = 0; trial < 5 && !fits; ++trial) {  // other load on the machine may spoil one
+        const ProcessResult result = converge(folder, scene, "timed" + std::to_string(trial),
+                                              {"--methods", "cpu:brdf", "--reference", "oracle", "--time", "0.05",
+                                               "--runs", "2", "--size", "16", "--max-depth", "2", "--json"});
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        const Json json = Json::parse(result.out);
+        CHECK(json.at("reference").at("method") == "oracle");
+        const Json& last = json.at("methods")[0].at("checkpoints").back();
+        CHECK(std::has_single_bit(last.at("spp").get<unsigned>()));
+        fits = last.at("spp").get<int>() > 4 && last.at("device_seconds").get<double>() < 0.3;
+    }
+    CHECK(fits);
 }
 
 TEST_CASE("converge refuses what it cannot measure, and a folder of other results", "[app]") {
@@ -282,9 +296,10 @@ TEST_CASE("converge refuses what it cannot measure, and a folder of other result
 TEST_CASE("converge does without gnuplot", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const ProcessResult result =
-        run_diptych(folder, {"converge", scene, "-o", folder.file("out"), "--methods", "cpu:path", "--spp-max", "2", "--runs", "2",
-                             "--size", "8", "--json"}, {"PATH=" + folder.file("nothing")});
+    const ProcessResult result = run_diptych(folder,
+                                             {"converge", scene, "-o", folder.file("out"), "--methods", "cpu:path",
+                                              "--spp-max", "2", "--runs", "2", "--size", "8", "--json"},
+                                             {"PATH=" + folder.file("nothing")});
     CHECK(result.exit_code == 0);
     CHECK(result.err.find("gnuplot is not installed") != std::string::npos);
     CHECK(Json::parse(result.out).at("plots") == false);

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -152,6 +154,18 @@ std::string file_text(const std::filesystem::path& path) {
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
+}
+
+double seconds_taken(double seconds, const std::function<ProcessResult()>& run) {
+    double taken = 0;
+    for (int trial = 0; trial < 5 && std::abs(taken - seconds) > 0.05 * seconds; ++trial) {
+        const ProcessResult result = run();
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        taken = nlohmann::json::parse(result.out).at("seconds").get<double>();
+        CHECK(taken > 0.95 * seconds);
+    }
+    return taken;
 }
 
 void check_refusal(const ProcessResult& result, int exit_code, const std::vector<std::string>& parts) {

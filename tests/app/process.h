@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,10 @@ std::string write_bare_triangle(const TemporaryFolder& folder);
 
 std::string file_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, const std::string& text);
+
+/// How long a run says, by --json, that it took: of a few runs, as other load on the machine may hold one up, the first
+/// that takes `seconds` within five percent, else the last. None may stop short.
+double seconds_taken(double seconds, const std::function<ProcessResult()>& run);
 
 /// The refusal that a user is owed: exit code, nothing on stdout, one line on stderr that holds every one of the parts.
 void check_refusal(const ProcessResult& result, int exit_code, const std::vector<std::string>& parts);

@@ -1,6 +1,6 @@
 // Real files: all good ones load, all bad ones load or are refused in one line, soon.
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <map>
 
@@ -112,7 +112,7 @@ TEST_CASE("every invalid asset loads or is refused in one line, soon", "[gltf]")
     std::size_t refused = 0;
     for (const std::filesystem::path& file : gltf_files(folder)) {
         INFO(file.string());
-        const auto start = std::chrono::steady_clock::now();
+        const std::clock_t start = std::clock();  // of this process, so that other load on the machine does not count
         try {
             const Scene scene = load_gltf(file);
             CHECK(is_consistent(scene));
@@ -123,7 +123,7 @@ TEST_CASE("every invalid asset loads or is refused in one line, soon", "[gltf]")
             CHECK(message.size() > file.string().size() + 10);
             ++refused;
         }
-        CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+        CHECK(std::clock() - start < 5 * CLOCKS_PER_SEC);
     }
     CHECK(refused > 50);
 }

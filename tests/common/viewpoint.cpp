@@ -37,7 +37,9 @@ Viewpoint high(double view_height) {
     return viewpoint;
 }
 
-glm::dvec3 axis(const Camera& camera, int column) { return glm::dvec3(camera.camera_to_world[column]); }
+glm::dvec3 axis(const Camera& camera, int column) {
+    return glm::dvec3(camera.camera_to_world[column]);
+}
 
 }  // namespace
 

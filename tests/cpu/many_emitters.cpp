@@ -1,6 +1,6 @@
 // Scenes of very many lights still pack and render.
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 
 #include "render_fixture.h"
 #include "scene/generate.h"
@@ -11,11 +11,10 @@ using namespace diptych::tests;
 namespace {
 
 void check_street(std::uint64_t count, double seconds_allowed) {
-    using Clock = std::chrono::steady_clock;
     GenerateOptions options;
     options.count = count;
     const Scene scene = generate_scene("many-lights", options).scene;
-    const Clock::time_point start = Clock::now();
+    const std::clock_t start = std::clock();  // of all threads, so that other load on the machine does not count
     RenderSettings settings = statistical_settings(32, 18, Integrator::path, 4);
     const PackedScene packed = pack_scene(scene, settings);
     CHECK(packed.constants.light_count >= count);
@@ -26,8 +25,8 @@ void check_street(std::uint64_t count, double seconds_allowed) {
     const std::atomic<bool> cancel{false};
     renderer->render(0, 4, cancel);
     const Film film = renderer->film();
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    std::printf("many-lights %llu: packed, built and rendered in %.2f s, %.0f MB of buffers\n",
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    std::printf("many-lights %llu: packed, built and rendered in %.2f s of CPU, %.0f MB of buffers\n",
                 static_cast<unsigned long long>(count), seconds, static_cast<double>(buffer_bytes(packed)) / 1e6);
     CHECK(film_totals(film).nonfinite == 0);
     CHECK(image_mean(film).mean[0] > 0);

@@ -24,11 +24,11 @@ std::shared_ptr<Gpu> open_test_gpu() {
 }
 
 std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays,
-                                  const BuildLimits& limits) {
+                                  const BuildLimits& limits, const InstanceGroups& groups) {
     const auto opened = open_test_gpu();
     const Gpu& gpu = *opened;
     const SceneMemory scene = upload_scene(gpu, packed);
-    const BottomLevels bottom = build_bottom_levels(gpu, packed, scene, limits);
+    const BottomLevels bottom = build_bottom_levels(gpu, packed, scene, groups, limits);
     const TopLevel top = build_top_level(gpu, packed, bottom);
     const FilmMemory film = make_film(gpu, static_cast<int>(rays.size()), 1, shared::FEATURE_FIRST_HIT_LAYERS);
     Uploader uploader(gpu);
@@ -39,11 +39,13 @@ std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<s
     SceneAddresses addresses = scene_addresses(scene);
     enter_film(addresses, film);
     addresses.recorded_rays = ray_buffer.address;
+    addresses.grouped_geometries = bottom.grouped_geometries.address;
     const PipelineLayout layout = make_pipeline_layout(gpu);
     const vk::raii::PipelineCache cache = open_pipeline_cache(gpu, {});
     const bool alpha = (packed.features & shared::FEATURE_ALPHA) != 0;
     const TracePipeline pipeline = make_pipeline(
-        gpu, layout, cache, scene_shaders(test_shader_binary("trace_rays.rgen"), alpha), packed.features, false);
+        gpu, layout, cache, scene_shaders(test_shader_binary("trace_rays.rgen"), alpha),
+        {.features = packed.features, .groups = groups.groups.empty() ? 0U : 1U});
     const Bindings bindings = make_bindings(gpu, layout, *top.structure, *top.structure, addresses, packed.constants);
     run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
         record_dispatch(commands, pipeline, layout, bindings, {}, static_cast<std::uint32_t>(rays.size()), 1);

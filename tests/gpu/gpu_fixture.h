@@ -27,7 +27,7 @@ struct TracedRay {
 
 /// Traces closest and any hits on the device.
 std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays,
-                                  const BuildLimits& limits = {});
+                                  const BuildLimits& limits = {}, const InstanceGroups& groups = {});
 
 /// A generated scene, packed.
 PackedScene generated_scene(const std::string& name, const RenderSettings& settings);

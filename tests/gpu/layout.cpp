@@ -159,6 +159,7 @@ Offsets address_offsets() {
     offsets["path_queries"] = offsetof(SceneAddresses, path_queries);
     offsets["path_vertices"] = offsetof(SceneAddresses, path_vertices);
     offsets["path_summaries"] = offsetof(SceneAddresses, path_summaries);
+    offsets["grouped_geometries"] = offsetof(SceneAddresses, grouped_geometries);
     return offsets;
 }
 

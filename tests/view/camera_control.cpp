@@ -47,7 +47,8 @@ double shear(const Camera& camera) {
 /// Where a point is seen, in [0, 1]^2, y down.
 glm::dvec2 seen_at(const Camera& camera, const glm::dvec3& point, double aspect) {
     const glm::dvec3 local(glm::inverse(camera.camera_to_world) * glm::dvec4(point, 1));
-    const double height = camera.orthographic ? camera.orthographic_height / 2 : -local.z * std::tan(camera.vertical_fov / 2);
+    const double height =
+        camera.orthographic ? camera.orthographic_height / 2 : -local.z * std::tan(camera.vertical_fov / 2);
     return {0.5 + 0.5 * local.x / (height * aspect), 0.5 - 0.5 * local.y / height};
 }
 

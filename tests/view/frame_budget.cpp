@@ -34,7 +34,8 @@ TEST_CASE("At rest the picture is whole and samples fill the frame", "[view]") {
 TEST_CASE("Moving takes the finest preview whose sample fits", "[view]") {
     CHECK(frame_budget(fits(2.5), width, height, frame, true, 1).divisor == 1);
     CHECK(frame_budget(fits(2.5), width, height, frame, true, 1).samples == 2);
-    CHECK(frame_budget(fits(0.3), width, height, frame, true, 8).divisor == 3);  // 0.25 would do, but not with a fifth to spare
+    CHECK(frame_budget(fits(0.3), width, height, frame, true, 8).divisor ==
+          3);  // 0.25 would do, but not with a fifth to spare
     CHECK(frame_budget(fits(0.3), width, height, frame, true, 2).divisor == 2);
     CHECK(frame_budget(fits(0.03), width, height, frame, true, 1).divisor == 6);
     CHECK(frame_budget(fits(1e-6), width, height, frame, true, 1).divisor == 8);

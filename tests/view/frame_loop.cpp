@@ -1,7 +1,6 @@
 // A view's frames without window or device: what is posted, what is played, what survives.
 #include "view/frame_loop.h"
 
-
 #include "backend/cpu_renderer.h"
 #include "scene/pose.h"
 #include "view/camera_control.h"

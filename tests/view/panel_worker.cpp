@@ -18,8 +18,9 @@ namespace {
 /// What was called but for renders.
 std::vector<std::string> changes(Script& script) {
     std::vector<std::string> calls = script.take();
-    calls.erase(std::remove_if(calls.begin(), calls.end(), [](const std::string& c) { return c.rfind("render", 0) == 0; }),
-                calls.end());
+    calls.erase(
+        std::remove_if(calls.begin(), calls.end(), [](const std::string& c) { return c.rfind("render", 0) == 0; }),
+        calls.end());
     return calls;
 }
 
@@ -243,7 +244,9 @@ TEST_CASE("After any walk of changes a panel's film is that of a fresh renderer"
     const std::vector<std::function<void()>> walk = {
         [] {},
         [&] { settings.integrator = Integrator::brdf; },
-        [&] { job.state.request.sun = Sun{30, 40, 2}; },
+        [&] {
+            job.state.request.sun = Sun{30, 40, 2};
+        },
         [&] { job.state.request.sun->azimuth = -80; },
         [&] { job.state.request.environment_scale = 0.25; },
         [&] { job.state.request.environment_rotation = 70; },
@@ -300,7 +303,7 @@ TEST_CASE("A chain of frames goes on while the camera moves", "[view]") {
     CHECK(calls[0] == "move");
     CHECK(calls[1] == "clear");
     CHECK(calls[2] == "render " + std::to_string(before) + " 1");  // indices go on
-    CHECK(calls[3] == "move");                                    // the next frames look back to this same moment
+    CHECK(calls[3] == "move");                                     // the next frames look back to this same moment
     CHECK(calls[4].rfind("render " + std::to_string(before + 1) + " ", 0) == 0);
 }
 

@@ -34,7 +34,8 @@ Film noise(double mean, int samples, std::uint32_t seed) {
     std::uniform_real_distribution<float> uniform(-std::sqrt(3.0F), std::sqrt(3.0F));
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         for (int s = 0; s < samples; ++s) {
-            const glm::vec3 x = glm::vec3(static_cast<float>(mean)) + glm::vec3(uniform(random), uniform(random), uniform(random));
+            const glm::vec3 x =
+                glm::vec3(static_cast<float>(mean)) + glm::vec3(uniform(random), uniform(random), uniform(random));
             REQUIRE(shared::film_add(film.pixels[i], x, 2));
             shared::film_add_moments(film.moments[i], x, film.pixels[i].samples);
         }
