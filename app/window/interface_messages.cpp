@@ -48,8 +48,9 @@ bool draw_message(const Theme& theme, const char* name, const std::string& text,
         ImGui::PopID();
     }
     const float height = ImGui::GetWindowHeight();
+    const float left = at.x + theme.units(2);  // inside of what a window clips its content to
     ImGui::GetWindowDrawList()->AddRectFilled(
-        {at.x, at.y + theme.units(2)}, {at.x + theme.units(0.75F), at.y + height - theme.units(2)}, packed(mark));
+        {left, at.y + theme.units(2.5F)}, {left + theme.units(0.5F), at.y + height - theme.units(2.5F)}, packed(mark));
     ImGui::End();
     y += height + theme.units(1.5F);
     return closed;
