@@ -85,7 +85,7 @@ void draw_table(const Theme& theme, const std::vector<const PanelFacts*>& panels
         for (const PanelFacts* panel : panels) {
             ImGui::TableNextColumn();
             const bool wrong = std::string(figure.label) == "Non-finite" && panel->shot->figures.nonfinite > 0;
-            right_aligned(figure.text(*panel->shot), wrong ? colors::bad : colors::text);
+            right_aligned(panel->shot->width > 0 ? figure.text(*panel->shot) : "–", wrong ? colors::bad : colors::text);
         }
     }
     ImGui::EndTable();
