@@ -20,7 +20,7 @@ InstanceGroups chosen_groups(const Gpu& gpu, const PackedScene& packed, Grouping
 }
 
 PathRendererOptions with_options(PathRendererOptions changes, const VulkanOptions& options) {
-    changes.grouping = options.group_instances ? changes.grouping : Grouping::none;
+    changes.grouping = options.group_instances ? changes.grouping : Grouping::nowhere;
     return changes;
 }
 

@@ -23,7 +23,7 @@
 namespace diptych {
 
 /// Whether instances that stand still are gathered (instance_groups.h): on a GPU, where that pays (decision 0010), or for a test anywhere.
-enum class Grouping { none, on_gpus, anywhere };
+enum class Grouping { nowhere, on_gpus, anywhere };
 
 /// What tests change.
 struct PathRendererOptions {
