@@ -321,7 +321,14 @@ RecordedPath PanelEngine::record_path(shared::PathQuery query, std::uint32_t see
     const auto divisor = static_cast<std::uint32_t>(divisor_);
     query.pixel = {std::min(query.pixel.x / divisor, static_cast<std::uint32_t>(of_film.width - 1)),
                    std::min(query.pixel.y / divisor, static_cast<std::uint32_t>(of_film.height - 1))};
-    return renderer_->record_paths({&query, 1}, seed).front();
+    RecordedPath path = renderer_->record_paths({&query, 1}, seed).front();
+    // Panels may have been packed about different origins, where the camera stood then.
+    for (shared::PathVertexRecord& vertex : path.vertices) {
+        if (vertex.instance != shared::NONE) {
+            vertex.position += glm::vec3(packed_->origin);
+        }
+    }
+    return path;
 }
 
 KeptFilm PanelEngine::film() {

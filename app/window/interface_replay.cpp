@@ -38,7 +38,7 @@ bool begin_rows(const Theme& theme, const char* id, std::size_t panels) {
     if (!ImGui::BeginTable(id, columns, ImGuiTableFlags_SizingStretchSame)) {
         return false;
     }
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, theme.units(20));
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, theme.units(25));
     for (std::size_t i = 0; i < panels; ++i) {
         ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1);
     }
