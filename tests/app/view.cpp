@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "image/image_file.h"
+#include "image/layered_image.h"
 #include "process.h"
 
 using namespace diptych;
