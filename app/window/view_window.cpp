@@ -145,9 +145,7 @@ void ViewWindow::begin_loop(LoadedScene scene) {
     view.frames_per_second = options_.frames_per_second;
     view.shown.panel = options_.panel;
     view.shown.exposure = request_.exposure;
-    if (request_.tonemap != "none") {
-        view.shown.tonemap = tonemap_from_name(request_.tonemap);
-    }
+    view.shown.tonemap = tonemap_from_name(request_.tonemap);
 }
 
 void ViewWindow::say(const std::string& text) {
