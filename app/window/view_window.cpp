@@ -385,7 +385,7 @@ void ViewWindow::step() {
         log_.write("loaded", {{"scene", loop_->scene().request.scene}, {"generation", generation_}});
     }
     if (asked_) {  // once both panels have been told of the picture
-        replay_.ask(*loop_, *std::exchange(asked_, {}));
+        replay_.ask(*loop_, *std::exchange(asked_, {}), state().rendered.request.settings.seed);
     }
     for (const std::string& error : loop_->take_errors()) {
         report(error);
