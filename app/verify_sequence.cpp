@@ -52,7 +52,7 @@ void resolve_frames(VerifyOptions& options) {
         }
     }
     for (const auto& [name, spp] : {std::pair("--spp", options.spp), {"--against-spp", options.against_spp}}) {
-        if (spp % options.frame_spp != 0) {
+        if (options.seconds == 0 && spp % options.frame_spp != 0) {
             throw Error(fmt::format("{} {}: is no multiple of --frame-spp {}", name, spp, options.frame_spp));
         }
     }

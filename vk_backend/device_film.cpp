@@ -28,7 +28,7 @@ DeviceFilm FilmUploader::upload(const Film& film) {
         uploader_->upload(film_->moments, std::as_bytes(std::span(film.moments)));
         uploader_->upload(film_->first_hits, std::as_bytes(std::span(film.first_hits)));
         uploader_->finish();
-        return DeviceFilm{.film = film_, .resampling = {}, .reservoir_set = 0};
+        return DeviceFilm{.gpu = gpu_, .film = film_, .resampling = {}, .reservoir_set = 0};
     });
 }
 

@@ -13,6 +13,7 @@
 namespace diptych {
 
 struct DeviceFilm {
+    std::shared_ptr<const Gpu> gpu;                      // that it lies on, and that outlives it
     std::shared_ptr<const FilmMemory> film;              // null: nothing yet
     std::shared_ptr<const ResamplingMemory> resampling;  // null: no reservoirs yet, or none at all
     std::uint32_t reservoir_set = 0;                     // that the last frame left

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "../shaders/display.h"
@@ -204,6 +205,7 @@ DisplayPicture make_display_picture(const Gpu& gpu, const DisplayPass& pass, std
             BufferUsage::eStorageBuffer | BufferUsage::eTransferDst | BufferUsage::eTransferSrc, MemoryKind::device);
         picture.histograms = make_buffer(gpu, "the picture's numbers", std::uint64_t{display_slots} * histogram_bytes,
                                          BufferUsage::eTransferDst, MemoryKind::readback);
+        std::memset(picture.histograms.mapped, 0, picture.histograms.size);  // nothing has been shown yet
         bind(gpu, pass, picture);
         return picture;
     });

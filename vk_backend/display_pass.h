@@ -80,8 +80,8 @@ struct DisplayRange {
 };
 
 /// Where the numbers of the scalar layer or of the difference lay that the slot's last frame showed: 1st and 99th
-/// percentile of the sizes of those that are not 0, to a quarter octave outwards. None where there were none. That
-/// frame has ended.
+/// percentile of the sizes of those that are not 0, to a quarter octave outwards. None where there were none, or no
+/// frame yet. That frame has ended.
 std::optional<DisplayRange> shown_range(const DisplayPicture& picture, std::uint32_t slot = 0);
 
 /// Display values in [0, 1], 3 channels, for write_png. The picture has been recorded and submitted.

@@ -82,7 +82,7 @@ void submit(const Gpu& gpu, const vk::SubmitInfo& info, vk::Fence fence) {
 
 void wait_idle(const Gpu& gpu) {
     const std::lock_guard lock(gpu.queue_mutex);
-    gpu.device.waitIdle();
+    in_context("waiting for the device", [&] { gpu.device.waitIdle(); });
 }
 
 }  // namespace diptych

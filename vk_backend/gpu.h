@@ -41,7 +41,7 @@ std::shared_ptr<Gpu> open_gpu(const GpuRequest& request);
 /// Submits, from any thread.
 void submit(const Gpu& gpu, const vk::SubmitInfo& info, vk::Fence fence);
 
-/// Waits for all that any thread has submitted.
+/// Waits for all that any thread has submitted. Throws DeviceLost or another Error.
 void wait_idle(const Gpu& gpu);
 
 }  // namespace diptych

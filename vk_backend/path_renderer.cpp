@@ -239,7 +239,10 @@ void PathRenderer::render_paths(std::uint32_t first, std::uint32_t count, const 
 }
 
 DeviceFilm PathRenderer::device_film() const {
-    return {.film = film_, .resampling = reservoir_set_ ? resampling_ : nullptr, .reservoir_set = reservoir_set_.value_or(0)};
+    return {.gpu = gpu_,
+            .film = film_,
+            .resampling = reservoir_set_ ? resampling_ : nullptr,
+            .reservoir_set = reservoir_set_.value_or(0)};
 }
 
 void PathRenderer::aim_dispatches(double seconds) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "error.h"
 
@@ -10,8 +11,9 @@ namespace diptych {
 namespace {
 
 // Any of them may feed an acceleration structure build; the flag costs nothing on those that do not.
-const vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eShaderDeviceAddress |
-                                       vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR;
+const vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer |
+                                   vk::BufferUsageFlagBits::eShaderDeviceAddress |
+                                   vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR;
 
 // What a scene has most of, and no setting changes: settings only leave such an array out.
 bool is_lasting(std::string_view name) {
@@ -24,11 +26,12 @@ bool holds(std::uint64_t revision, std::uint64_t wanted) {
 }
 
 template <typename T>
-void replace(const Gpu& gpu, Uploader& uploader, const char* name, const std::vector<T>& elements, Buffer& buffer) {
+void replace(const Gpu& gpu, Uploader& uploader, const char* name, const std::vector<T>& elements, bool known,
+             Buffer& buffer) {
     const std::span<const T> all(elements);
     if (buffer.size != all.size_bytes()) {
         buffer = upload_array(gpu, uploader, (std::string("scene buffer ") + name).c_str(), all, usage);
-    } else if (!is_lasting(name)) {
+    } else if (!known || !is_lasting(name)) {
         uploader.upload(buffer, std::as_bytes(all));
     }
 }
@@ -49,10 +52,11 @@ SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed) {
 
 void replace_scene(const Gpu& gpu, const PackedScene& packed, SceneMemory& scene) {
     Uploader uploader(gpu, std::uint64_t{8} << 20U);
+    // Where memory runs out midway, nobody knows what has come.
+    const Revisions held = std::exchange(scene.revisions, {});
 #define REPLACE_BUFFER(Type, name)                                                                                     \
-    if (scene.name.size != std::span(packed.name).size_bytes() ||                                                      \
-        !holds(scene.revisions.name, packed.revisions.name)) {                                                         \
-        replace(gpu, uploader, #name, packed.name, scene.name);                                                        \
+    if (scene.name.size != std::span(packed.name).size_bytes() || !holds(held.name, packed.revisions.name)) {          \
+        replace(gpu, uploader, #name, packed.name, held.name != 0, scene.name);                                        \
     }
     SCENE_BUFFERS(REPLACE_BUFFER)
 #undef REPLACE_BUFFER

@@ -110,7 +110,7 @@ void FrameLoop::open_scene(const std::string& path) {
 void FrameLoop::open_environment(const std::string& path) {
     RenderRequest request = scene_.request;
     request.environment = path;
-    loader_.open(std::move(request));
+    loader_.open(std::move(request), true);
 }
 
 void FrameLoop::play(double seconds) {

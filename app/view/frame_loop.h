@@ -34,8 +34,8 @@ public:
     /// the state to the panels that are shown where it changed. A panel that is not shown rests.
     void step(double now);
 
-    /// Loads another file, or a panorama as light of the present one. The present scene stays until then, and where
-    /// that fails.
+    /// Loads another file, or a panorama as light of the present one, whose camera stays. The present scene stays until
+    /// then, and where that fails.
     void open_scene(const std::string& path);
     void open_environment(const std::string& path);
 

@@ -60,12 +60,12 @@ SceneLoader::~SceneLoader() {
     thread_.join();
 }
 
-void SceneLoader::open(RenderRequest request) {
+void SceneLoader::open(RenderRequest request, bool reloads) {
     {
         const std::lock_guard lock(mutex_);
         loading_ = request.scene;
         wanted_ = std::move(request);
-        reload_ = false;
+        reload_ = reloads;
     }
     wake_.notify_one();
 }

@@ -27,7 +27,7 @@ struct LoadedScene {
     Bounds bounds;          // at rest
     std::vector<std::filesystem::path> files;  // that it is made of
     std::vector<FileStamp> stamps;             // of these, just before they were read
-    bool reloaded = false;                     // because a file changed: camera and settings stay
+    bool reloaded = false;                     // a file changed, or the sky: camera and settings stay
 };
 
 /// Loads on the calling thread. Throws Error.
@@ -41,7 +41,8 @@ public:
     SceneLoader& operator=(const SceneLoader&) = delete;
 
     /// Loads the request's scene and environment in the background; takes the place of a request that still waits.
-    void open(RenderRequest request);
+    /// `reloads`: the scene that is shown, under another sky.
+    void open(RenderRequest request, bool reloads = false);
 
     /// Watches these files, four times a second, and opens the request again once they have changed and then held still
     /// for one look.

@@ -118,6 +118,7 @@ void PanelEngine::apply(const ViewJob& job) {
         case Invalidation::nothing:
             break;
         case Invalidation::picture:
+            settle();
             renderer_->restart(settings().seed);
             begin_picture(false);
             break;
@@ -223,6 +224,14 @@ void PanelEngine::show(bool whole_moment) {
     unsettled_ = chained;
 }
 
+/// From here on samples look back to this same moment.
+void PanelEngine::settle() {
+    if (std::exchange(unsettled_, false)) {
+        pack_view(scene_, settings(), *packed_);  // nothing has moved since
+        renderer_->move_to(*packed_);
+    }
+}
+
 void PanelEngine::begin_picture(bool keeps_chain) {
     first_ = keeps_chain ? first_ + samples_ : 0;
     samples_ = 0;
@@ -248,10 +257,7 @@ void PanelEngine::advance(const std::atomic<bool>& cancel) {
         }
         samples_ += count;
         learn(count, between(begin, Clock::now()));
-        if (std::exchange(unsettled_, false)) {
-            pack_view(scene_, settings(), *packed_);  // nothing has moved since
-            renderer_->move_to(*packed_);
-        }
+        settle();
         publish(first);
     });
 }

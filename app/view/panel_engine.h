@@ -68,6 +68,7 @@ private:
     void change_settings();
     void pack_anew(Scene& scene);
     void show(bool whole_moment);
+    void settle();
     void begin_picture(bool keeps_chain);
     void learn(std::uint32_t samples, double seconds);
     void publish(bool first);

@@ -88,6 +88,9 @@ void PanelWorker::recover(RendererFactory factory) {
     {
         const std::lock_guard lock(mutex_);
         factory_ = std::move(factory);
+        PanelShot answered = *shot_;
+        answered.device_lost = false;  // one loss, one recovery
+        shot_ = std::make_shared<const PanelShot>(std::move(answered));
     }
     wake_.notify_one();
 }
@@ -97,6 +100,9 @@ void PanelWorker::run(RendererFactory factory) {
         std::function<void()> hook;
         {
             const std::lock_guard lock(mutex_);
+            if (factory_) {
+                return;  // of a renderer whose successor waits already
+            }
             shot_ = std::move(shot);
             hook = hook_;
         }

@@ -100,7 +100,7 @@ public:
     std::future<KeptFilm> film();
 
     /// Goes on with a renderer made anew by this factory, after a lost device; the last film is shown until there is
-    /// another.
+    /// another, and no shot says any more that the device was lost.
     void recover(RendererFactory factory);
 
     std::uint32_t seed_offset() const { return seed_offset_; }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "view/invalidation.h"
+
 namespace diptych::app {
 
 namespace {
@@ -66,9 +68,15 @@ VerificationLight verification_light(const PanelShot& first, const PanelShot& se
 void ErrorHistory::add(const PanelShot& shot, double now) {
     const FilmFigures& figures = shot.figures;
     if (figures.version != version_) {
-        points_.clear();
+        const bool goes_on = !points_.empty() && figures.spp >= points_.back().spp && figures.version == shot.version &&
+                             figures.width == width_ && invalidation(state_, shot.state) == Invalidation::nothing;
+        if (!goes_on) {
+            points_.clear();
+            begin_ = now;
+        }
         version_ = figures.version;
-        begin_ = now;
+        state_ = shot.state;
+        width_ = figures.width;
     }
     const bool grown = points_.empty() || figures.spp > points_.back().spp;
     if (!figures.relmse || !grown || figures.spp < 2) {

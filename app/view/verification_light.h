@@ -41,7 +41,7 @@ struct ErrorPoint {
     double relmse = 0;
 };
 
-/// The last so many points; a new picture begins anew.
+/// The last so many points; a new picture begins anew, a new version of the same one (paused, another panel) goes on.
 class ErrorHistory {
 public:
     explicit ErrorHistory(std::size_t capacity = 512) : capacity_(capacity) {}
@@ -55,6 +55,8 @@ private:
     std::size_t capacity_;
     std::deque<ErrorPoint> points_;
     std::uint64_t version_ = 0;
+    RenderedState state_;  // of that version
+    int width_ = 0;        // of its film: previews are other pictures
     double begin_ = 0;
 };
 

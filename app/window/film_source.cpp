@@ -7,17 +7,18 @@ DeviceFilm FilmSource::film_of(const FrameLoop& loop, Panel panel) {
     if (shot == nullptr || !loop.shows(panel)) {
         return {};
     }
-    if (shot->device_film != nullptr) {
+    if (shot->device_film != nullptr && shot->device_film->gpu == gpu_) {
         return *shot->device_film;
     }
     if (shot->film == nullptr) {
         return {};
     }
-    if (uploaded_ != shot->film) {
-        on_device_ = uploader_.upload(*shot->film);
-        uploaded_ = shot->film;
+    Upload& upload = uploads_[static_cast<std::size_t>(panel)];
+    if (upload.film != shot->film) {
+        upload.on_device = upload.uploader.upload(*shot->film);
+        upload.film = shot->film;
     }
-    return on_device_;
+    return upload.on_device;
 }
 
 }  // namespace diptych::app

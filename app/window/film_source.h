@@ -1,6 +1,7 @@
 // The panels' films on the device of the window.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "device_film.h"
@@ -10,16 +11,24 @@ namespace diptych::app {
 
 class FilmSource {
 public:
-    explicit FilmSource(std::shared_ptr<Gpu> gpu) : uploader_(std::move(gpu)) {}
+    explicit FilmSource(std::shared_ptr<Gpu> gpu) : gpu_(std::move(gpu)), uploads_{Upload(gpu_), Upload(gpu_)} {}
 
-    /// The newest film of a panel, uploaded where it lies on the host; nothing of a panel that is not shown or has none
-    /// yet.
+    /// The newest film of a panel, uploaded where it lies on the host, or on a device that was lost; nothing of a panel
+    /// that is not shown or has none yet.
     DeviceFilm film_of(const FrameLoop& loop, Panel panel);
 
 private:
-    FilmUploader uploader_;
-    std::shared_ptr<const Film> uploaded_;
-    DeviceFilm on_device_;  // what was uploaded
+    /// Of one panel: two that are shown side by side are in memory of their own.
+    struct Upload {
+        explicit Upload(std::shared_ptr<Gpu> gpu) : uploader(std::move(gpu)) {}
+
+        FilmUploader uploader;
+        std::shared_ptr<const Film> film;
+        DeviceFilm on_device;
+    };
+
+    std::shared_ptr<Gpu> gpu_;
+    std::array<Upload, 2> uploads_;
 };
 
 }  // namespace diptych::app

@@ -226,6 +226,9 @@ void ImguiPass::point_to(const vk::raii::DescriptorSet& set, vk::ImageView view)
 
 void ImguiPass::set_targets(const Swapchain& swapchain) {
     targets_.clear();
+    for (Frame& frame : frames_) {
+        frame.shown = nullptr;  // a picture made since may bear the handle of one that is gone
+    }
     extent_ = swapchain.extent;
     for (const vk::raii::ImageView& view : swapchain.views) {
         targets_.push_back(gpu_.device.createFramebuffer({.renderPass = *render_pass_,

@@ -17,15 +17,16 @@ void PixelReplay::forget() {
     error_.clear();
 }
 
-void PixelReplay::ask(const FrameLoop& loop, const shared::PathQuery& query) {
+void PixelReplay::ask(const FrameLoop& loop, const shared::PathQuery& query, std::uint32_t seed) {
     forget();
     asked_ = true;
     query_ = query;
     result_.tolerance = tolerance;
     for (const Panel panel : {Panel::cpu, Panel::vulkan}) {
         if (PanelWorker* worker = loop.worker(panel)) {
-            const std::uint32_t seed = loop.shot(panel)->state.request.settings.seed;
-            answers_.push_back({loop.shot(panel)->backend, loop.shot(panel)->device, worker->record_path(query, seed)});
+            // One that was never shown has not said what it is.
+            answers_.push_back(
+                {panel == Panel::cpu ? "cpu" : "vulkan", loop.shot(panel)->device, worker->record_path(query, seed)});
         }
     }
 }

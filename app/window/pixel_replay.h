@@ -13,8 +13,9 @@ namespace diptych::app {
 
 class PixelReplay {
 public:
-    /// Asks the panels for that path of the picture as it is now; what was asked before is forgotten.
-    void ask(const FrameLoop& loop, const shared::PathQuery& query);
+    /// Asks the panels for that path of the picture as it is now, under the one seed; what was asked before is
+    /// forgotten.
+    void ask(const FrameLoop& loop, const shared::PathQuery& query, std::uint32_t seed);
     void forget();
 
     /// Once a frame: takes what the panels have answered; true when the last one has.

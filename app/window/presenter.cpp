@@ -44,14 +44,16 @@ bool Presenter::make_ready(vk::Extent2D size) {
         if (!swapchain_) {
             return false;
         }
-        if (interface_ == nullptr) {
+        if (interface_ == nullptr || stale_font_) {
             interface_ = std::make_unique<ImguiPass>(*gpu_, swapchain_->format);
+            stale_font_ = false;
         }
         interface_->set_targets(*swapchain_);
         stale_ = false;
     }
     if (picture_.width != swapchain_->extent.width || picture_.height != swapchain_->extent.height) {
         wait();
+        drawn_ = false;
         picture_ = make_display_picture(*gpu_, display_, swapchain_->extent.width, swapchain_->extent.height);
     }
     return true;
@@ -84,6 +86,7 @@ bool Presenter::draw(const DisplayRequest& request, vk::Extent2D size, const ImD
         record_display(slot.commands(), display_, picture_, request, static_cast<std::uint32_t>(number));
         interface_->record(slot.commands(), slot.image(), number, *picture_.view, interface);
         result = slot.end(*swapchain_);
+        drawn_ = true;
         next_ = (next_ + 1) % frames_in_flight;
     }
     if (result == SurfaceResult::surface_lost) {
@@ -95,15 +98,14 @@ bool Presenter::draw(const DisplayRequest& request, vk::Extent2D size, const ImD
 }
 
 Image Presenter::picture() const {
+    if (!drawn_) {
+        throw Error("there is no picture yet");
+    }
     return read_display(*gpu_, picture_);
 }
 
 void Presenter::reload_font() {
-    if (interface_ != nullptr) {
-        wait();
-        interface_ = std::make_unique<ImguiPass>(*gpu_, swapchain_->format);
-        interface_->set_targets(*swapchain_);
-    }
+    stale_ = stale_font_ = true;
 }
 
 }  // namespace diptych::app

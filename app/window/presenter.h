@@ -29,10 +29,11 @@ public:
     /// Where the numbers of a frame shown of late lay; none where none were shown.
     const std::optional<DisplayRange>& range() const { return range_; }
 
-    /// The picture of the last frame without the interface, as display values.
+    /// The picture of the last frame without the interface, as display values. Throws Error before the first of this
+    /// size.
     Image picture() const;
 
-    /// After the font atlas was built anew.
+    /// After the font atlas was built anew: the next frame takes it over.
     void reload_font();
 
 private:
@@ -50,7 +51,9 @@ private:
     std::array<DisplayRequest, frames_in_flight> requests_;  // films that the frames in flight read
     std::optional<DisplayRange> range_;
     std::size_t next_ = 0;
-    bool stale_ = true;  // the swapchain is to be made anew
+    bool stale_ = true;        // the swapchain is to be made anew
+    bool stale_font_ = false;  // and what draws the interface
+    bool drawn_ = false;       // the picture has been recorded and submitted
 };
 
 }  // namespace diptych::app

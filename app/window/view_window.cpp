@@ -145,9 +145,7 @@ void ViewWindow::begin_loop(LoadedScene scene) {
     view.frames_per_second = options_.frames_per_second;
     view.shown.panel = options_.panel;
     view.shown.exposure = request_.exposure;
-    if (request_.tonemap != "none") {
-        view.shown.tonemap = tonemap_from_name(request_.tonemap);
-    }
+    view.shown.tonemap = tonemap_from_name(request_.tonemap);
 }
 
 void ViewWindow::say(const std::string& text) {
@@ -387,7 +385,7 @@ void ViewWindow::step() {
         log_.write("loaded", {{"scene", loop_->scene().request.scene}, {"generation", generation_}});
     }
     if (asked_) {  // once both panels have been told of the picture
-        replay_.ask(*loop_, *std::exchange(asked_, {}));
+        replay_.ask(*loop_, *std::exchange(asked_, {}), state().rendered.request.settings.seed);
     }
     for (const std::string& error : loop_->take_errors()) {
         report(error);
