@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "view/frame_loop.h"
@@ -73,6 +74,7 @@ private:
     Legend legend_;
     WindowInput input_;
     FilmSaver saver_;
+    std::set<int> chords_;  // keys last pressed with Ctrl: one that is let go after Ctrl does not fly
     double last_frame_ = 0;
     double frame_seconds_ = 0;  // averaged
     int frames_owed_ = 0;       // at once, after input: what opens takes a frame to be laid out and one to be seen

@@ -22,6 +22,13 @@ void OpenView::read_input(double timeout) {
     if (imgui_.fit(input_, options_.interface_scale)) {
         presenter_->reload_font();
     }
+    for (const KeyPress& press : input_.keys) {
+        if (press.ctrl) {
+            chords_.insert(press.key);
+        } else if (!press.repeated) {
+            chords_.erase(press.key);
+        }
+    }
     // Text fields take keys first, as of the frame before.
     if (!ImGui::GetIO().WantTextInput) {
         for (const KeyPress& press : input_.keys) {
@@ -51,8 +58,9 @@ void OpenView::take_drops() {
 
 void OpenView::move_camera(double seconds) {
     const ImGuiIO& io = ImGui::GetIO();
+    const auto flies = [&](int key) { return window_.holds(key) && chords_.count(key) == 0; };
     const auto axis = [&](int positive, int negative) {
-        return (window_.holds(positive) ? 1.0 : 0.0) - (window_.holds(negative) ? 1.0 : 0.0);
+        return (flies(positive) ? 1.0 : 0.0) - (flies(negative) ? 1.0 : 0.0);
     };
     const bool ctrl = window_.holds(GLFW_KEY_LEFT_CONTROL) || window_.holds(GLFW_KEY_RIGHT_CONTROL);
     HandInput input{
