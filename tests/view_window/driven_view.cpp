@@ -74,17 +74,20 @@ Event DrivenView::latest(const std::string& name, const std::function<bool(const
     return found;
 }
 
-Event DrivenView::placed(const std::string& control) {
-    const auto is_it = [&](const Event& event) { return event["name"] == control; };
+Event DrivenView::last(const std::string& name, const std::function<bool(const Event&)>& fits) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
     while (std::chrono::steady_clock::now() < deadline) {
-        const Event seen = latest("placed", is_it);
+        const Event seen = latest(name, fits);
         std::this_thread::sleep_for(std::chrono::milliseconds(500));
-        if (!seen.is_null() && seen == latest("placed", is_it)) {
+        if (!seen.is_null() && seen == latest(name, fits)) {
             return seen;
         }
     }
-    give_up("no control '" + control + "' was placed");
+    give_up("events '" + name + "' did not come, or did not end");
+}
+
+Event DrivenView::placed(const std::string& control) {
+    return last("placed", [&](const Event& event) { return event["name"] == control; });
 }
 
 void DrivenView::key(const std::string& name) const {

@@ -24,6 +24,8 @@ public:
     Event await(const std::string& name, const std::function<bool(const Event&)>& fits = {});
     /// The latest of all events so far that fits, awaited or not; null where there is none.
     Event latest(const std::string& name, const std::function<bool(const Event&)>& fits = {});
+    /// The latest of them once no more come.
+    Event last(const std::string& name, const std::function<bool(const Event&)>& fits = {});
     /// Where a control stands, once it stands still.
     Event placed(const std::string& control);
 

@@ -1,4 +1,6 @@
 // The whole program in a window, driven by synthetic input, under the validation layer.
+#include <algorithm>
+
 #include "../app/process.h"
 #include "catch.h"
 #include "driven_view.h"
@@ -42,7 +44,7 @@ void check_clean(const ProcessResult& result) {
 
 }  // namespace
 
-TEST_CASE("a view is opened, orbited, switched, resized, saved and closed", "[view_window]") {
+TEST_CASE("a view is opened, orbited, flown, switched, resized, saved and closed", "[view_window]") {
     OPEN_DISPLAY(display, folder, scene)
     DrivenView view(display, folder, scene, {"--panel", "vulkan", "--scale", "0.2", "--max-depth", "2"});
     CHECK(view.await("integrator")["name"] == "path");
@@ -54,6 +56,37 @@ TEST_CASE("a view is opened, orbited, switched, resized, saved and closed", "[vi
     const auto is_newer = [&](const Event& event) { return event["version"] > begun["version"]; };
     view.await("applied", is_newer);
     const Event orbited = view.await("spp", [&](const Event& event) { return is_newer(event) && is_settled(event); });
+
+    // Saved pictures tell where wheel and keys have brought the camera.
+    Event before = orbited;
+    const auto saved_picture = [&] {
+        view.key("ctrl+shift+s");
+        return read_image(view.await("saved")["file"].get<std::string>());
+    };
+    const auto picture_after = [&](const std::vector<std::string>& deeds) {
+        display.hand(deeds);
+        const auto follows = [&](const Event& event) { return event["version"] > before["version"]; };
+        before = view.last("applied", follows);
+        view.await("spp", [&](const Event& event) { return event["version"] == before["version"]; });
+        return saved_picture();
+    };
+    const auto farthest = [](const LayeredImage& image) {
+        return *std::max_element(image.depth->data.begin(), image.depth->data.end());
+    };
+    const LayeredImage afar = saved_picture();
+    const LayeredImage rolled =
+        picture_after({"mousemove", "320", "250", "sleep", "0.2", "click", "4", "sleep", "0.1", "click", "4"});
+    const LayeredImage flown =
+        picture_after({"keydown", "w", "sleep", "0.3", "keyup", "w", "sleep", "0.1", "key", "f"});
+    CHECK(farthest(rolled) < 0.95F * farthest(afar));
+    CHECK(farthest(flown) < 0.99F * farthest(rolled));
+    CHECK(rolled.metadata.at("command").find("--focus") == std::string::npos);
+    CHECK(flown.metadata.at("command").find("--focus") != std::string::npos);
+
+    // S is let go after Ctrl, and does not fly meanwhile.
+    display.hand({"keydown", "Control_L", "keydown", "s", "keyup", "Control_L", "sleep", "0.3", "keyup", "s"});
+    view.await("screenshot");
+    CHECK(view.last("applied")["version"] == before["version"]);
 
     view.key("i");
     CHECK(view.await("integrator")["name"] == "ris");
@@ -82,9 +115,7 @@ TEST_CASE("a view is opened, orbited, switched, resized, saved and closed", "[vi
     }
     CHECK(sum / static_cast<double>(picture.image.data.size()) > 0.02);  // not black
 
-    view.key("ctrl+shift+s");
-    const std::string exr = view.await("saved")["file"].get<std::string>();
-    const LayeredImage saved = read_image(exr);
+    const LayeredImage saved = saved_picture();
     CHECK(saved.color.width == 100);
     CHECK(saved.depth);
     CHECK(saved.metadata.at("command").find("--eye") != std::string::npos);  // the camera was orbited
