@@ -1,6 +1,7 @@
 #include "gpu_fixture.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "acceleration.h"
@@ -21,6 +22,23 @@ VulkanOptions test_options() {
 
 std::shared_ptr<Gpu> open_test_gpu() {
     return open_gpu({.device = "", .validation = test_options().validation});
+}
+
+std::vector<shared::RecordedRay> random_rays(std::uint32_t seed, int count) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
+    std::vector<shared::RecordedRay> rays;
+    for (int i = 0; i < count; ++i) {
+        shared::RecordedRay ray{};
+        for (int k = 0; k < 3; ++k) {
+            ray.origin[k] = 3.0F * uniform(random);
+            ray.direction[k] = uniform(random);
+        }
+        ray.t_max = 0.5F + 2.0F * std::abs(uniform(random));
+        ray.alpha_key = static_cast<std::uint32_t>(i);
+        rays.push_back(ray);
+    }
+    return rays;
 }
 
 std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays,

@@ -25,6 +25,9 @@ struct TracedRay {
     bool blocked;
 };
 
+/// Rays from within [-3, 3]^3 in all directions, each with an end.
+std::vector<shared::RecordedRay> random_rays(std::uint32_t seed, int count);
+
 /// Traces closest and any hits on the device.
 std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays,
                                   const BuildLimits& limits = {}, const InstanceGroups& groups = {});

@@ -22,23 +22,6 @@ PackedScene standing_scene(std::uint32_t meshes, std::uint32_t instances, std::u
     return packed;
 }
 
-std::vector<shared::RecordedRay> random_rays(int count) {
-    std::mt19937 random(12);
-    std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
-    std::vector<shared::RecordedRay> rays;
-    for (int i = 0; i < count; ++i) {
-        shared::RecordedRay ray{};
-        for (int k = 0; k < 3; ++k) {
-            ray.origin[k] = 3.0F * uniform(random);
-            ray.direction[k] = uniform(random);
-        }
-        ray.t_max = 0.5F + 2.0F * std::abs(uniform(random));
-        ray.alpha_key = static_cast<std::uint32_t>(i);
-        rays.push_back(ray);
-    }
-    return rays;
-}
-
 std::size_t count_grouped(const InstanceGroups& groups) {
     std::size_t count = 0;
     for (const InstanceGroup& group : groups.groups) {
@@ -126,7 +109,7 @@ TEST_CASE("Grouped instances are hit as they are alone") {
     NEED_VULKAN();
     const bool some_move = GENERATE(false, true);
     const PackedScene packed = standing_scene(5, 23, 12, some_move);
-    const std::vector<shared::RecordedRay> rays = random_rays(4000);
+    const std::vector<shared::RecordedRay> rays = random_rays(12, 4000);
     const std::vector<TracedRay> alone = trace_rays(packed, rays);
     for (const std::uint64_t triangles : {std::uint64_t{1} << 22U, std::uint64_t{100}}) {
         const InstanceGroups groups = group_instances(packed, {.triangles = triangles});

@@ -68,23 +68,6 @@ Truth brute_force(const PackedScene& packed, const shared::RecordedRay& ray) {
     return truth;
 }
 
-std::vector<shared::RecordedRay> random_rays(std::uint32_t seed, int count) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
-    std::vector<shared::RecordedRay> rays;
-    for (int i = 0; i < count; ++i) {
-        shared::RecordedRay ray{};
-        for (int k = 0; k < 3; ++k) {
-            ray.origin[k] = 3.0F * uniform(random);
-            ray.direction[k] = uniform(random);
-        }
-        ray.t_max = 0.5F + 2.0F * std::abs(uniform(random));
-        ray.alpha_key = static_cast<std::uint32_t>(i);
-        rays.push_back(ray);
-    }
-    return rays;
-}
-
 }  // namespace
 
 TEST_CASE("Builds in many small batches give the same hits as in one") {
