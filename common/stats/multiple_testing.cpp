@@ -20,6 +20,10 @@ double fisher_combined(std::span<const double> p) {
     return p.empty() ? 1 : chi_square_upper(fisher_statistic(p), 2 * static_cast<double>(p.size()));
 }
 
+double merged_p(std::span<const double> p) {
+    return p.empty() ? 1 : std::min(1.0, std::exp(1 - fisher_statistic(p) / (2 * static_cast<double>(p.size()))));
+}
+
 double scaled_chi_square_upper(double statistic, double mean, double variance) {
     if (!(mean > 0) || !(variance > 0)) {
         return statistic <= mean ? 1 : 0;

@@ -13,6 +13,10 @@ double fisher_statistic(std::span<const double> p);
 /// 1 for none.
 double fisher_combined(std::span<const double> p);
 
+/// The same whatever the dependence, at a price: e times the geometric mean (Vovk and Wang 2020, "Combining p-values
+/// via averaging"). 1 for none.
+double merged_p(std::span<const double> p);
+
 /// p of a sum of known mean and variance under the hypothesis, as a scaled chi-square (Brown 1975, "A method for
 /// combining non-independent, one-sided tests of significance").
 double scaled_chi_square_upper(double statistic, double mean, double variance);

@@ -144,14 +144,29 @@ void draw_signs(std::span<double> sign, std::mt19937_64& random) {
     std::shuffle(sign.begin(), sign.end(), random);
 }
 
-double resampled_fisher_p(const std::vector<ChannelRuns>& tested, double observed, const TileTestOptions& options) {
+/// Half the number of ways to draw signs for so many runs: a draw and its mirror image give the same p-values.
+double distinct_draws(std::size_t count_a, std::size_t count_b) {
+    const auto ways = [](std::size_t count) {
+        const double n = static_cast<double>(count);
+        return std::exp(std::lgamma(n + 1) - std::lgamma(std::floor(n / 2) + 1) - std::lgamma(std::ceil(n / 2) + 1));
+    };
+    return ways(count_a) * ways(count_b) / 2;
+}
+
+double combined_p(const std::vector<ChannelRuns>& tested, const std::vector<double>& p_values,
+                  const TileTestOptions& options) {
+    if (options.resamplings < 2) {
+        return fisher_combined(p_values);
+    }
     if (tested.empty()) {
         return 1;
     }
     const std::size_t count_a = tested.front().count_a;
     const std::size_t count_b = tested.front().count_b;
-    if (options.resamplings < 2 || std::min(count_a, count_b) < 3) {
-        return chi_square_upper(observed, 2 * static_cast<double>(tested.size()));
+    // A handful of draws, each of them met many times, tells nothing of how far the sum spreads.
+    if (std::min(count_a, count_b) < 3 ||
+        distinct_draws(count_a, options.common_seeds ? 0 : count_b) < options.resamplings) {
+        return merged_p(p_values);
     }
     std::vector<double> sign(count_a + count_b);
     std::mt19937_64 random(options.seed);
@@ -165,7 +180,7 @@ double resampled_fisher_p(const std::vector<ChannelRuns>& tested, double observe
         sums.push_back(fisher_statistic(p));
     }
     const SampleSummary null = summarize(sums);
-    return scaled_chi_square_upper(observed, null.mean, null.variance);
+    return scaled_chi_square_upper(fisher_statistic(p_values), null.mean, null.variance);
 }
 
 void compare_tiles(std::span<const RunMeans> a, std::span<const RunMeans> b, const TileTestOptions& options,
@@ -215,7 +230,7 @@ void compare_tiles(std::span<const RunMeans> a, std::span<const RunMeans> b, con
     }
     moments_a.describe(a.size(), result.tail_a);
     moments_b.describe(b.size(), result.tail_b);
-    result.fisher_p = resampled_fisher_p(summed, fisher_statistic(p_values), options);
+    result.fisher_p = combined_p(summed, p_values, options);
     result.local_p = sidak_adjusted(result.min_p, static_cast<double>(std::max<std::size_t>(result.tested, 1)));
     if (!lit_half_widths.empty()) {
         std::sort(lit_half_widths.begin(), lit_half_widths.end());

@@ -196,6 +196,45 @@ TEST_CASE("Bias in one tile shows in the least p, bias of both signs in Fisher's
     CHECK(comparison.channel_bias_percent[0] == Approx(2).margin(0.7));
 }
 
+TEST_CASE("Few runs and few tiles make no false FAIL of Fisher's sum") {
+    constexpr int repeats = 500;
+    // Runs whose tiles are all alike, as a chain's nearly are.
+    const auto copied = [](std::vector<RunMeans> runs, std::size_t tiles) {
+        for (RunMeans& run : runs) {
+            run.tiles.assign(tiles, run.tiles.front());
+        }
+        return runs;
+    };
+    for (const int runs : {2, 3, 4, 6, 7, 12}) {
+        for (const auto& [drawn, tiles] : {std::pair(1, 1), {8, 8}, {1, 8}}) {
+            std::mt19937_64 random(static_cast<std::uint64_t>(100 * runs + 10 * drawn + tiles));
+            std::vector<double> fisher;
+            for (int i = 0; i < repeats; ++i) {
+                auto a = made_up_runs(random, runs, drawn, normal_noise());
+                auto b = made_up_runs(random, runs, drawn, normal_noise());
+                if (drawn < tiles) {
+                    a = copied(std::move(a), static_cast<std::size_t>(tiles));
+                    b = copied(std::move(b), static_cast<std::size_t>(tiles));
+                }
+                fisher.push_back(compare_runs(a, b, {.seed = static_cast<std::uint32_t>(i)}).fisher_p);
+            }
+            CAPTURE(runs, drawn, tiles, *std::min_element(fisher.begin(), fisher.end()));
+            for (const double alpha : {0.1, 0.01, 0.001}) {
+                CAPTURE(alpha);
+                CHECK(count_below(fisher, alpha) <=
+                      repeats * alpha + binomial_deviations * std::sqrt(repeats * alpha * (1 - alpha)));
+            }
+        }
+    }
+}
+
+TEST_CASE("Four runs are enough for a plain bias of all tiles") {
+    std::mt19937_64 random(14);
+    const TileComparison comparison = compare_runs(made_up_runs(random, 4, 64, grey(scaled(normal_noise(), 2))),
+                                                   made_up_runs(random, 4, 64, grey(normal_noise())));
+    CHECK(comparison.fisher_p < 1e-3);
+}
+
 TEST_CASE("Rare events that one side meets too seldom make no FAIL") {
     std::mt19937_64 random(13);
     const TileNoise rare = spike_noise(0.25);

@@ -151,6 +151,9 @@ TEST_CASE("Many p-values are combined and corrected as the papers say") {
     CHECK(fisher_statistic(p) == Approx(19.58031773445825));
     CHECK(fisher_combined(p) == Approx(0.0120459920405177).epsilon(1e-12));
     CHECK(fisher_combined({}) == 1);
+    CHECK(merged_p(std::vector<double>{1e-4, 1e-2}) == Approx(std::exp(1.0) * 1e-3));
+    CHECK(merged_p(std::vector<double>{0.5, 0.5}) == 1);
+    CHECK(merged_p({}) == 1);
     CHECK(std::isfinite(fisher_statistic(std::vector<double>{0.0, 0.5})));
     // With the moments of independent p-values, the scaled chi-square is Fisher's own.
     CHECK(scaled_chi_square_upper(19.58031773445825, 8, 16) == Approx(0.0120459920405177).epsilon(1e-12));
