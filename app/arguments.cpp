@@ -63,7 +63,8 @@ CLI::Validator number_between(double least, double most) {
 
 void add_integrator_option(CLI::App& command, RenderArguments& arguments) {
     arguments.panel_options.push_back(
-        command.add_option("--integrator", arguments.integrator, "brdf, direct, path, ris or restir; not for the oracle")
+        command
+            .add_option("--integrator", arguments.integrator, "brdf, direct, path, ris or restir; not for the oracle")
             ->capture_default_str());
 }
 
@@ -92,8 +93,8 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
                     "Load the file without this glTF extension, though it requires it; may be repeated")
         ->type_name("NAME")
         ->allow_extra_args(false);
-    arguments.panel_options.push_back(command.add_flag(
-        "--generic", request.settings.generic, "Leave nothing out that the scene does not need; same image"));
+    arguments.panel_options.push_back(command.add_flag("--generic", request.settings.generic,
+                                                       "Leave nothing out that the scene does not need; same image"));
     add_resampling_options(command, arguments);
 }
 
@@ -101,8 +102,10 @@ void add_backend_options(CLI::App& command, RenderArguments& arguments) {
     RenderRequest& request = arguments.request;
     command.add_option("--backend", request.backend, "cpu, vulkan or oracle")->capture_default_str();
     command.add_option("--device", request.device, "Vulkan device by index or name; the best by default");
-    command.add_option("--threads", request.threads, "Threads of cpu or oracle; one a core by default")->check(CLI::Range(1, 4096));
-    command.add_flag("--validation", request.validation, "Run Vulkan's validation layers; exit 1 if they have anything to say");
+    command.add_option("--threads", request.threads, "Threads of cpu or oracle; one a core by default")
+        ->check(CLI::Range(1, 4096));
+    command.add_flag("--validation", request.validation,
+                     "Run Vulkan's validation layers; exit 1 if they have anything to say");
     // For measuring what it gains (docs/decisions/0010-groups-of-instances.md): not in the help.
     command.add_flag("--group-instances,!--no-group-instances", request.group_instances)->group("");
 }

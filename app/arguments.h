@@ -47,7 +47,8 @@ void add_backend_options(CLI::App& command, RenderArguments& arguments);
 /// How the oracle is to find light.
 void add_oracle_option(CLI::App& command, RenderArguments& arguments);
 
-/// Throws Error where the mode is unknown, stands without the oracle, or an option stands with it that means nothing to it.
+/// Throws Error where the mode is unknown, stands without the oracle, or an option stands with it that means nothing to
+/// it.
 void resolve_oracle_mode(const RenderArguments& arguments);
 
 /// Another place for the camera, and a sun; add_scene_options calls it.

@@ -15,12 +15,13 @@ namespace diptych::app {
 /// What --backend may name.
 std::vector<std::string> backend_names();
 
-/// The panels read the packed scene, the oracle the logical one it was made of; both must outlive the renderer. Throws NoDevice
-/// where there is no suitable one, Error where the program was built without that backend.
+/// The panels read the packed scene, the oracle the logical one it was made of; both must outlive the renderer. Throws
+/// NoDevice where there is no suitable one, Error where the program was built without that backend.
 std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request);
 
-/// What the validation layer had to say during the run, as a line on stderr where that is anything. Returns `exit_code`, or
-/// exit_check_failed where it was exit_done and there were messages. Call it when all renderers are gone.
+/// What the validation layer had to say during the run, as a line on stderr where that is anything. Returns
+/// `exit_code`, or exit_check_failed where it was exit_done and there were messages. Call it when all renderers are
+/// gone.
 int exit_code_after_validation(int exit_code);
 
 }  // namespace diptych::app

@@ -40,7 +40,7 @@ struct Entry {
     std::unique_ptr<PackedScene> packed;  // outlives the renderer, which may read it
     std::unique_ptr<Renderer> renderer;
     std::vector<double> frame_seconds;
-    std::optional<TraversalBench> traversal;  // of integrators that take each sample by itself
+    std::optional<TraversalBench> traversal;        // of integrators that take each sample by itself
     std::vector<std::vector<double>> pass_seconds;  // of each pass, its frames
     double rays_per_frame = 0;
 };
@@ -49,8 +49,8 @@ struct Figures {
     double milliseconds = 0;  // one sample a pixel
     double samples_per_second = 0;
     double rays_per_second = 0;
-    double bare_rays_per_second = 0;  // 0 where that is not measured
-    double share_of_bare = 0;         // likewise
+    double bare_rays_per_second = 0;   // 0 where that is not measured
+    double share_of_bare = 0;          // likewise
     double cost_relative_to_brdf = 0;  // a sample; 0 where brdf was not measured
 };
 

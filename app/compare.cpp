@@ -109,8 +109,8 @@ void print_numbers(const Difference& difference) {
 void subtract(const std::string& path, const std::string& from, LayeredImage& image) {
     const LayeredImage part = read_image(path);
     if (part.color.width != image.color.width || part.color.height != image.color.height) {
-        throw Error(fmt::format("--minus {}: is {}x{}, but {} is {}x{}", path, part.color.width, part.color.height, from,
-                                image.color.width, image.color.height));
+        throw Error(fmt::format("--minus {}: is {}x{}, but {} is {}x{}", path, part.color.width, part.color.height,
+                                from, image.color.width, image.color.height));
     }
     std::transform(image.color.data.begin(), image.color.data.end(), part.color.data.begin(), image.color.data.begin(),
                    std::minus<>());
@@ -138,9 +138,10 @@ int run_compare(const Options& options) {
     const Difference difference = compare_images(a, b);
     const Verdict verdict = judge(difference, a, b);
     if (options.max_z && verdict.correlated) {
-        throw Error(fmt::format("{} and {}: --max-z wants pixels that know nothing of one another, and those of restir do: use "
-                                "verify, whose runs are independent",
-                                options.a, options.b));
+        throw Error(
+            fmt::format("{} and {}: --max-z wants pixels that know nothing of one another, and those of restir do: use "
+                        "verify, whose runs are independent",
+                        options.a, options.b));
     }
     if (options.max_z && !(a.standard_error && b.standard_error)) {
         throw Error(fmt::format("{}: --max-z wants a layer of standard errors, and there is none",

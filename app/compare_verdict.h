@@ -15,7 +15,7 @@ struct Verdict {
     std::string text;
     std::optional<bool> noise;         // nothing where it cannot be told
     bool same_random_numbers = false;  // the noise is shared, so z means nothing
-    bool correlated = false;           // a picture's samples depend on one another, so its standard errors are too small
+    bool correlated = false;  // a picture's samples depend on one another, so its standard errors are too small
 };
 
 /// Largest |z| over the channels; NaN where one is unknown.

@@ -94,7 +94,8 @@ private:
                 if (limit == 0) {
                     return false;
                 }
-                state_.append(nlohmann::ordered_json{{"kind", "limit"}, {"method", methods_[i].name}, {"spp_max", limit}});
+                state_.append(
+                    nlohmann::ordered_json{{"kind", "limit"}, {"method", methods_[i].name}, {"spp_max", limit}});
             }
             limits_.push_back(limit);
         }
@@ -144,15 +145,16 @@ private:
         const std::uint32_t seed = methods_[index].request.settings.seed + run;
         std::vector<ErrorRow> rows;
         std::map<std::uint32_t, std::vector<float>> deviations;
-        const bool whole = runner.run(
-            seed, counts_of(index), cancel, [&](std::uint32_t spp, const Film& film, double device_seconds, double wall_seconds) {
-                rows.push_back(row_of(film, device_seconds, wall_seconds));
-                rows.back().method = name;
-                rows.back().run = run;
-                rows.back().seed = seed;
-                rows.back().spp = spp;
-                deviations[spp] = deviations_of(film);
-            });
+        const bool whole =
+            runner.run(seed, counts_of(index), cancel,
+                       [&](std::uint32_t spp, const Film& film, double device_seconds, double wall_seconds) {
+                           rows.push_back(row_of(film, device_seconds, wall_seconds));
+                           rows.back().method = name;
+                           rows.back().run = run;
+                           rows.back().seed = seed;
+                           rows.back().spp = spp;
+                           deviations[spp] = deviations_of(film);
+                       });
         if (!whole) {
             return false;
         }
@@ -286,8 +288,9 @@ std::string typed(const CLI::App& command) {
         }
         if (option->get_items_expected_max() > 0) {
             const bool listed = option->get_delimiter() != '\0';
-            text += " " + (listed ? shell_quoted(fmt::format("{}", fmt::join(option->results(), ",")))
-                                  : fmt::format("{}", fmt::join(option->results(), fmt::format(" {} ", option->get_name()))));
+            text += " " +
+                    (listed ? shell_quoted(fmt::format("{}", fmt::join(option->results(), ",")))
+                            : fmt::format("{}", fmt::join(option->results(), fmt::format(" {} ", option->get_name()))));
         }
     }
     return text;
@@ -296,18 +299,21 @@ std::string typed(const CLI::App& command) {
 }  // namespace
 
 void add_converge(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("converge", "Measure how the error falls over samples and time, and report it");
+    CLI::App* command =
+        app.add_subcommand("converge", "Measure how the error falls over samples and time, and report it");
     auto options = std::make_shared<ConvergeOptions>();
     RenderRequest& request = options->arguments.request;
     command->add_option("scene", request.scene, ".gltf or .glb file")->required();
     command
         ->add_option("--methods", options->methods,
-                     "Comma-separated BACKEND:INTEGRATOR[:SAMPLER], such as vulkan:path or cpu:direct:independent; or oracle[:MODE]")
+                     "Comma-separated BACKEND:INTEGRATOR[:SAMPLER], such as vulkan:path or cpu:direct:independent; or "
+                     "oracle[:MODE]")
         ->delimiter(',')
         ->capture_default_str();
-    CLI::Option* spp = command->add_option("--spp-max", options->spp_max, "Most samples a pixel of a run; a power of two, or less")
-                           ->check(CLI::Range(1U, 1U << 24U))
-                           ->capture_default_str();
+    CLI::Option* spp =
+        command->add_option("--spp-max", options->spp_max, "Most samples a pixel of a run; a power of two, or less")
+            ->check(CLI::Range(1U, 1U << 24U))
+            ->capture_default_str();
     command
         ->add_option("--time", options->seconds,
                      "Instead: as many samples, a power of two, as each method renders in so many seconds")
@@ -319,23 +325,30 @@ void add_converge(CLI::App& app, Run& run) {
         ->capture_default_str();
     command
         ->add_option("--reference", options->reference,
-                     "A picture; or BACKEND:INTEGRATOR[:SAMPLER], to be rendered with 16 times the samples; auto: `path` where it is "
+                     "A picture; or BACKEND:INTEGRATOR[:SAMPLER], to be rendered with 16 times the samples; auto: "
+                     "`path` where it is "
                      "not itself measured")
         ->capture_default_str();
-    command->add_option("--target-relmse", options->target_relmse, "Tell the time until this relMSE; else what half of the methods reach")
+    command
+        ->add_option("--target-relmse", options->target_relmse,
+                     "Tell the time until this relMSE; else what half of the methods reach")
         ->check(positive_number());
     command
         ->add_option("--picture-time", options->picture_seconds,
                      "Seconds of rendering that the pictures compare; by default the shortest of the methods' runs")
         ->check(positive_number());
-    command->add_option("--page-side", options->page_side, "The page's pictures are thinned to at most so many pixels a side")
+    command
+        ->add_option("--page-side", options->page_side,
+                     "The page's pictures are thinned to at most so many pixels a side")
         ->check(CLI::Range(16, 32768))
         ->capture_default_str();
     command->add_option("--seed", options->seed, "First of the seeds, which go on from there")->capture_default_str();
     add_scene_options(*command, options->arguments);
     command->add_option("--device", request.device, "Vulkan device by index or name; the best by default");
-    command->add_option("--threads", request.threads, "Threads of cpu or oracle; one a core by default")->check(CLI::Range(1, 4096));
-    command->add_flag("--validation", request.validation, "Run Vulkan's validation layers; exit 1 if they have anything to say");
+    command->add_option("--threads", request.threads, "Threads of cpu or oracle; one a core by default")
+        ->check(CLI::Range(1, 4096));
+    command->add_flag("--validation", request.validation,
+                      "Run Vulkan's validation layers; exit 1 if they have anything to say");
     command->add_option("-o,--output", options->folder, "Folder of the results; index.html is the page")->required();
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     command->footer(examples);

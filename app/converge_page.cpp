@@ -55,7 +55,8 @@ std::string script_text(const nlohmann::ordered_json& json) {
 nlohmann::ordered_json rounded(nlohmann::ordered_json json) {
     if (json.is_number_float()) {
         const double value = json;
-        return std::isfinite(value) ? nlohmann::ordered_json(std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr)) : nullptr;
+        return std::isfinite(value) ? nlohmann::ordered_json(std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr))
+                                    : nullptr;
     }
     if (json.is_structured()) {
         for (auto& value : json) {
@@ -97,14 +98,16 @@ void write_page(const nlohmann::ordered_json& summary, const ConvergeState& stat
                                                             {"error", embedded(state.path(stem + "-error.png"))}};
     }
     const std::string scene = summary.at("scene");
-    const std::string name = scene.substr(scene.find_last_of('/') == std::string::npos ? 0 : scene.find_last_of('/') + 1);
-    write_file_atomically(state.path("index.html"), filled(page_text("page.html"), {{"TITLE", html_text(name)},
-                                                                                    {"STYLE", std::string(page_text("page.css"))},
-                                                                                    {"DATA", script_text(rounded(summary))},
-                                                                                    {"PICTURES", script_text(pictures)},
-                                                                                    {"CHART", std::string(page_text("chart.js"))},
-                                                                                    {"VIEWER", std::string(page_text("viewer.js"))},
-                                                                                    {"SCRIPT", std::string(page_text("page.js"))}}));
+    const std::string name =
+        scene.substr(scene.find_last_of('/') == std::string::npos ? 0 : scene.find_last_of('/') + 1);
+    write_file_atomically(state.path("index.html"),
+                          filled(page_text("page.html"), {{"TITLE", html_text(name)},
+                                                          {"STYLE", std::string(page_text("page.css"))},
+                                                          {"DATA", script_text(rounded(summary))},
+                                                          {"PICTURES", script_text(pictures)},
+                                                          {"CHART", std::string(page_text("chart.js"))},
+                                                          {"VIEWER", std::string(page_text("viewer.js"))},
+                                                          {"SCRIPT", std::string(page_text("page.js"))}}));
 }
 
 }  // namespace diptych::app

@@ -50,8 +50,8 @@ Image error_map(const Image& color, const Image& reference, int largest_side) {
     return heatmap(error, 0, 1);
 }
 
-/// Whole stops that bring the reference's mean near a fifth of white, and leave scenes of ordinary brightness as they are. Emitters,
-/// which may be as bright as they like, count for little.
+/// Whole stops that bring the reference's mean near a fifth of white, and leave scenes of ordinary brightness as they
+/// are. Emitters, which may be as bright as they like, count for little.
 double exposure_of(const Image& reference) {
     double sum = 0;
     for (const float value : reference.data) {
@@ -77,32 +77,35 @@ bool make_picture(MethodRunner& runner, double seconds, const Reference& referen
         last = row.method == method.name ? &row : last;
     }
     const double sample_seconds = last->device_seconds / last->spp;
-    const auto spp = static_cast<std::uint32_t>(std::clamp(std::round(seconds / std::max(sample_seconds, 1e-12)), 1.0, 1e9));
+    const auto spp =
+        static_cast<std::uint32_t>(std::clamp(std::round(seconds / std::max(sample_seconds, 1e-12)), 1.0, 1e9));
     std::filesystem::create_directories(state.path("pictures"));
-    return runner.run(method.request.settings.seed, {spp}, cancel, [&](std::uint32_t, const Film& film, double device_seconds, double) {
-        LayeredImage image = develop(film);
-        const Difference difference = compare_images(image, reference.image);
-        RenderRequest request = method.request;
-        request.output = stem + ".exr";
-        request.settings.sample_count = spp;
-        RenderOutcome outcome;
-        outcome.program = program_version();
-        outcome.device = runner.device();
-        outcome.spp = spp;
-        outcome.seconds = device_seconds;
-        image.metadata = render_metadata(request, outcome);
-        write_exr(path, image);
-        state.append(nlohmann::ordered_json{{"kind", "picture"},
-                                            {"method", method.name},
-                                            {"wanted_seconds", seconds},
-                                            {"spp", spp},
-                                            {"device_seconds", device_seconds},
-                                            {"relmse", difference.relmse},
-                                            {"command", repeat_command(request, spp)}});
-    });
+    return runner.run(method.request.settings.seed, {spp}, cancel,
+                      [&](std::uint32_t, const Film& film, double device_seconds, double) {
+                          LayeredImage image = develop(film);
+                          const Difference difference = compare_images(image, reference.image);
+                          RenderRequest request = method.request;
+                          request.output = stem + ".exr";
+                          request.settings.sample_count = spp;
+                          RenderOutcome outcome;
+                          outcome.program = program_version();
+                          outcome.device = runner.device();
+                          outcome.spp = spp;
+                          outcome.seconds = device_seconds;
+                          image.metadata = render_metadata(request, outcome);
+                          write_exr(path, image);
+                          state.append(nlohmann::ordered_json{{"kind", "picture"},
+                                                              {"method", method.name},
+                                                              {"wanted_seconds", seconds},
+                                                              {"spp", spp},
+                                                              {"device_seconds", device_seconds},
+                                                              {"relmse", difference.relmse},
+                                                              {"command", repeat_command(request, spp)}});
+                      });
 }
 
-void write_page_pictures(const std::vector<Method>& methods, const Reference& reference, int largest_side, const ConvergeState& state) {
+void write_page_pictures(const std::vector<Method>& methods, const Reference& reference, int largest_side,
+                         const ConvergeState& state) {
     std::filesystem::create_directories(state.path("pictures"));
     const Image& truth = reference.image.color;
     const double exposure = exposure_of(truth);

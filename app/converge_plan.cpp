@@ -44,12 +44,13 @@ Method parse_method(const char* option, const std::string& text, const RenderReq
     const std::vector<std::string> parts = parts_of(text);
     const std::string& backend = parts.front();
     if (!is_backend(backend)) {
-        throw Error(fmt::format("{} {}: wants BACKEND:INTEGRATOR, and the backends are cpu, vulkan, oracle", option, text));
+        throw Error(
+            fmt::format("{} {}: wants BACKEND:INTEGRATOR, and the backends are cpu, vulkan, oracle", option, text));
     }
     const bool oracle = backend == "oracle";
     if (parts.size() > (oracle ? 2U : 3U) || (!oracle && parts.size() < 2)) {
-        throw Error(fmt::format("{} {}: wants cpu:INTEGRATOR[:SAMPLER], vulkan:INTEGRATOR[:SAMPLER] or oracle[:MODE]", option,
-                                text));
+        throw Error(fmt::format("{} {}: wants cpu:INTEGRATOR[:SAMPLER], vulkan:INTEGRATOR[:SAMPLER] or oracle[:MODE]",
+                                option, text));
     }
     Method method;
     method.name = text;
@@ -172,8 +173,9 @@ Method plan_reference(const ConvergeOptions& options, const std::vector<Method>&
         const std::string name = std::string(backend) == "oracle" ? backend : std::string(backend) + ":path";
         first = first.empty() ? name : first;
         const bool taken = std::any_of(methods.begin(), methods.end(), [&](const Method& method) {
-            return uses(method) && (method.request.backend == "oracle" ? method.request.oracle_mode == RenderRequest{}.oracle_mode
-                                                                       : method.request.settings.integrator == Integrator::path);
+            return uses(method) &&
+                   (method.request.backend == "oracle" ? method.request.oracle_mode == RenderRequest{}.oracle_mode
+                                                       : method.request.settings.integrator == Integrator::path);
         });
         if (!taken) {
             return parse_method("--reference", name, base);
@@ -221,8 +223,8 @@ void claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& 
     const fs::path path = fs::path(options.folder) / "plan.json";
     if (!fs::exists(path)) {
         if (fs::exists(fs::path(options.folder) / "results.jsonl")) {
-            throw Error(fmt::format("{}: holds results.jsonl, but not the plan.json that they came from; give another -o",
-                                    options.folder));
+            throw Error(fmt::format(
+                "{}: holds results.jsonl, but not the plan.json that they came from; give another -o", options.folder));
         }
         write_file_atomically(path, plan.dump(2) + "\n");
         return;

@@ -42,15 +42,16 @@ void check_converge_options(ConvergeOptions& options);
 /// Throws Error for a method that does not exist or is named twice. Needs the scene prepared, for size and camera.
 std::vector<Method> plan_methods(const ConvergeOptions& options);
 
-/// What --reference names, where that is no file; `auto` is `path` on a backend for which it is not among the methods, else `path` with
-/// the other MIS weights. Always over scrambled Sobol' sets, with seeds of its own.
+/// What --reference names, where that is no file; `auto` is `path` on a backend for which it is not among the methods,
+/// else `path` with the other MIS weights. Always over scrambled Sobol' sets, with seeds of its own.
 Method plan_reference(const ConvergeOptions& options, const std::vector<Method>& methods);
 bool reference_is_file(const ConvergeOptions& options);
 
 /// All that the results depend on, the program and the scene's file included.
 nlohmann::ordered_json plan_to_json(const ConvergeOptions& options, const std::vector<Method>& methods);
 
-/// Makes the folder, and plan.json in it; refuses a folder that holds another plan's results, naming the first difference. Throws Error.
+/// Makes the folder, and plan.json in it; refuses a folder that holds another plan's results, naming the first
+/// difference. Throws Error.
 void claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& plan);
 
 /// ':' and '/' become '-'.

@@ -130,8 +130,8 @@ ReferenceNoise noise_of(const Reference& reference) {
 Reference load_reference(const std::string& path, int width, int height) {
     LayeredImage image = read_image(path);
     if (image.color.width != width || image.color.height != height) {
-        throw Error(fmt::format("--reference {}: has {}x{} pixels, and {}x{} are rendered; give --size", path, image.color.width,
-                                image.color.height, width, height));
+        throw Error(fmt::format("--reference {}: has {}x{} pixels, and {}x{} are rendered; give --size", path,
+                                image.color.width, image.color.height, width, height));
     }
     for (const float value : image.color.data) {
         if (!std::isfinite(value)) {
@@ -141,15 +141,16 @@ Reference load_reference(const std::string& path, int width, int height) {
     return reference_of(std::move(image), path);
 }
 
-std::optional<Reference> make_reference(const Scene& scene, const Method& method, std::uint32_t spp, ConvergeState& state,
-                                        const std::atomic<bool>& cancel,
+std::optional<Reference> make_reference(const Scene& scene, const Method& method, std::uint32_t spp,
+                                        ConvergeState& state, const std::atomic<bool>& cancel,
                                         const std::function<void(std::uint32_t)>& begin_block) {
     const RenderSettings& settings = method.request.settings;
     const std::string path = state.path("reference.exr"), partial = state.path("reference.blocks");
     if (!state.latest("reference").is_null() && fs::exists(path)) {
         return reference_of(read_image(path), method.name);
     }
-    Blocks blocks = load(partial, 3 * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
+    Blocks blocks =
+        load(partial, 3 * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
     MethodRunner runner(scene, method);
     double seconds = 0;
     while (blocks.count < reference_blocks) {
@@ -174,7 +175,8 @@ std::optional<Reference> make_reference(const Scene& scene, const Method& method
     outcome.seconds = seconds;
     image.metadata = render_metadata(request, outcome);
     image.metadata["blocks"] = std::to_string(reference_blocks);
-    // Each block has its own seed, so no single render has these bits: this one has their expectation and, about, their noise.
+    // Each block has its own seed, so no single render has these bits: this one has their expectation and, about, their
+    // noise.
     write_exr(path, image);
     state.append(nlohmann::ordered_json{{"kind", "reference"},
                                         {"method", method.name},

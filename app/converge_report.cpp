@@ -24,7 +24,10 @@ Json to_json(const BiasSquared& bias) {
 }
 
 Json to_json(const BiasFit& fit) {
-    return {{"bias_squared", to_json(fit.bias_squared)}, {"noise", fit.noise}, {"standard_error", fit.standard_error}, {"p", fit.p}};
+    return {{"bias_squared", to_json(fit.bias_squared)},
+            {"noise", fit.noise},
+            {"standard_error", fit.standard_error},
+            {"p", fit.p}};
 }
 
 Json to_json(const CheckpointSummary& point) {
@@ -74,7 +77,8 @@ Json to_json(const MethodSummary& summary) {
     json["fit"] = to_json(summary.fit);
     json["fit_relmse"] = to_json(summary.fit_relmse);
     json["fit_relmse"]["adjusted_p"] = summary.fit_p;
-    json["bias"] = {{"adjusted_p", summary.bias_p}, {"significant", summary.bias_p < bias_alpha}, {"text", summary.bias_text}};
+    json["bias"] = {
+        {"adjusted_p", summary.bias_p}, {"significant", summary.bias_p < bias_alpha}, {"text", summary.bias_text}};
     json["time_to_target"] = {{"kind", name_of(summary.to_target.kind)}, {"device_seconds", summary.to_target.seconds}};
     json["picture"] = summary.picture;
     json["command"] = repeat_command(request, summary.checkpoints.back().spp);
@@ -91,8 +95,8 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Summary& summary, const Reference& reference,
-                                       const ConvergeState& state) {
+nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Summary& summary,
+                                       const Reference& reference, const ConvergeState& state) {
     const RenderRequest& request = options.arguments.request;
     Json json;
     json["scene"] = request.scene;
@@ -123,16 +127,18 @@ nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Sum
 }
 
 std::string summary_to_csv(const Summary& summary) {
-    std::string text = "method,runs,spp,device_seconds,wall_seconds,mse,mse_low,mse_high,relmse,relmse_low,relmse_high,relmse_trimmed,"
-                       "trimmed_energy,mse_net,relmse_net,efficiency,bias_squared,bias_squared_error,relative_bias_squared,relative_bias_squared_error,relative_bias_p,heavy,nonfinite\n";
+    std::string text =
+        "method,runs,spp,device_seconds,wall_seconds,mse,mse_low,mse_high,relmse,relmse_low,relmse_high,relmse_trimmed,"
+        "trimmed_energy,mse_net,relmse_net,efficiency,bias_squared,bias_squared_error,relative_bias_squared,relative_"
+        "bias_squared_error,relative_bias_p,heavy,nonfinite\n";
     for (const MethodSummary& method : summary.methods) {
         for (const CheckpointSummary& p : method.checkpoints) {
             text += fmt::format("{},{},{}", method.method->name, method.runs, p.spp);
             for (const double value :
-                 {p.device_seconds, p.wall_seconds, p.mse.value, p.mse.low, p.mse.high, p.relmse.value, p.relmse.low, p.relmse.high,
-                  p.relmse_trimmed.value, p.trimmed_energy, p.mse_net, p.relmse_net, p.efficiency, p.bias.value,
-                  p.bias.standard_error, p.relative_bias.value, p.relative_bias.standard_error, p.relative_bias.p,
-                  p.relative_bias.heavy}) {
+                 {p.device_seconds, p.wall_seconds, p.mse.value, p.mse.low, p.mse.high, p.relmse.value, p.relmse.low,
+                  p.relmse.high, p.relmse_trimmed.value, p.trimmed_energy, p.mse_net, p.relmse_net, p.efficiency,
+                  p.bias.value, p.bias.standard_error, p.relative_bias.value, p.relative_bias.standard_error,
+                  p.relative_bias.p, p.relative_bias.heavy}) {
                 text += std::isfinite(value) ? fmt::format(",{:.9g}", value) : ",";
             }
             text += fmt::format(",{}\n", p.nonfinite);
@@ -143,15 +149,16 @@ std::string summary_to_csv(const Summary& summary) {
 
 void print_summary(const ConvergeOptions& options, const Summary& summary, const Reference& reference) {
     const RenderSettings& settings = options.arguments.request.settings;
-    fmt::print("{} at {}x{}, {} runs a method; reference: {}{}\n", options.arguments.request.scene, settings.width, settings.height,
-               options.runs, reference.method, reference.spp > 0 ? fmt::format(", {} spp", reference.spp) : "");
-    fmt::print("{:<26} {:>8} {:>9} {:>10} {:>7} {:>15} {:>13}  bias\n", "method", "spp", "time", "relMSE", "slope", "95 %",
-               fmt::format("to {:.2g}", summary.target_relmse));
+    fmt::print("{} at {}x{}, {} runs a method; reference: {}{}\n", options.arguments.request.scene, settings.width,
+               settings.height, options.runs, reference.method,
+               reference.spp > 0 ? fmt::format(", {} spp", reference.spp) : "");
+    fmt::print("{:<26} {:>8} {:>9} {:>10} {:>7} {:>15} {:>13}  bias\n", "method", "spp", "time", "relMSE", "slope",
+               "95 %", fmt::format("to {:.2g}", summary.target_relmse));
     for (const MethodSummary& method : summary.methods) {
         const CheckpointSummary& last = method.checkpoints.back();
         const char* mark = method.to_target.kind == TargetTime::Kind::earlier ? "<"
                            : method.to_target.kind == TargetTime::Kind::later ? ">"
-                                                                             : "";
+                                                                              : "";
         fmt::print("{:<26} {:>8} {:>9} {:>10.3g} {:>7.3f} {:>15} {:>13}  {}{}\n", method.method->name, last.spp,
                    time_text(last.device_seconds), last.relmse_net, method.slope_mse.value,
                    fmt::format("[{:.3f}, {:.3f}]", method.slope_mse.low, method.slope_mse.high),

@@ -88,7 +88,8 @@ std::uint32_t MethodRunner::samples_within(double seconds, const std::atomic<boo
     Entry& at_work = entry(1);
     warm_up(at_work, cancel);
     std::uint32_t fits = 1;
-    for (int pass = 0; pass < 2; ++pass) {  // the first is slower than what follows, where dispatches still find their size
+    for (int pass = 0; pass < 2;
+         ++pass) {  // the first is slower than what follows, where dispatches still find their size
         at_work.renderer->restart(method_.request.settings.seed);
         const double before = at_work.renderer->device_seconds();
         std::uint32_t done = 0;

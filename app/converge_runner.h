@@ -24,8 +24,8 @@ struct SetupCosts {
 /// A run's film after `spp` samples a pixel, and the seconds until then, of rendering alone.
 using Checkpoint = std::function<void(std::uint32_t spp, const Film& film, double device_seconds, double wall_seconds)>;
 
-/// Makes its renderers when they are first needed. A Hammersley set is laid out for a number of samples, so there each count has a
-/// renderer and a render of its own; otherwise a run is one render that grows.
+/// Makes its renderers when they are first needed. A Hammersley set is laid out for a number of samples, so there each
+/// count has a renderer and a render of its own; otherwise a run is one render that grows.
 class MethodRunner {
 public:
     MethodRunner(const Scene& scene, Method method) : scene_(scene), method_(std::move(method)) {}
@@ -43,7 +43,8 @@ public:
     bool run(std::uint32_t seed, const std::vector<std::uint32_t>& counts, const std::atomic<bool>& cancel,
              const Checkpoint& checkpoint);
 
-    /// The largest power of two of samples that takes at most so many seconds, at least 1; 0 where `cancel` came in between.
+    /// The largest power of two of samples that takes at most so many seconds, at least 1; 0 where `cancel` came in
+    /// between.
     std::uint32_t samples_within(double seconds, const std::atomic<bool>& cancel);
 
 private:

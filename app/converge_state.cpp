@@ -26,7 +26,11 @@ constexpr std::uint32_t sums_magic = 0x31535444;  // "DTS1"
 
 Json run_to_json(const std::vector<ErrorRow>& run) {
     const ErrorRow& first = run.front();
-    Json json = {{"kind", "run"}, {"method", first.method}, {"run", first.run}, {"seed", first.seed}, {"checkpoints", Json::array()}};
+    Json json = {{"kind", "run"},
+                 {"method", first.method},
+                 {"run", first.run},
+                 {"seed", first.seed},
+                 {"checkpoints", Json::array()}};
     for (const ErrorRow& row : run) {
         json["checkpoints"].push_back({{"spp", row.spp},
                                        {"device_seconds", row.device_seconds},
@@ -158,11 +162,12 @@ Json ConvergeState::latest(const std::string& kind, const std::string& method) c
 }
 
 void ConvergeState::write_csv() const {
-    std::string text = "method,run,seed,spp,device_seconds,wall_seconds,mse,relmse,relmse_trimmed,trimmed_energy,nonfinite,rays\n";
+    std::string text =
+        "method,run,seed,spp,device_seconds,wall_seconds,mse,relmse,relmse_trimmed,trimmed_energy,nonfinite,rays\n";
     for (const ErrorRow& row : rows_) {
-        text += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n", row.method, row.run, row.seed, row.spp,
-                            row.device_seconds, row.wall_seconds, row.mse, row.relmse, row.relmse_trimmed, row.trimmed_energy,
-                            row.nonfinite, row.rays);
+        text += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n", row.method, row.run,
+                            row.seed, row.spp, row.device_seconds, row.wall_seconds, row.mse, row.relmse,
+                            row.relmse_trimmed, row.trimmed_energy, row.nonfinite, row.rays);
     }
     write_file_atomically(path("results.csv"), text);
 }

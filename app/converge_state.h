@@ -27,8 +27,8 @@ struct ErrorRow {
     std::uint64_t rays = 0;
 };
 
-/// results.jsonl holds a line for each event: "setup" (what building a method took), "limit" (how many samples fit the time),
-/// "reference", "run" (the ErrorRows of one run), "picture". Lines are only ever appended.
+/// results.jsonl holds a line for each event: "setup" (what building a method took), "limit" (how many samples fit the
+/// time), "reference", "run" (the ErrorRows of one run), "picture". Lines are only ever appended.
 class ConvergeState {
 public:
     /// Reads what is there; a last line that was cut off is dropped. Throws Error.
@@ -46,7 +46,8 @@ public:
     /// All rows, with a line of column names. Throws Error.
     void write_csv() const;
 
-    /// The sums over a method's runs, by sample count; empty where none are kept yet. Throws Error where the file is not whole.
+    /// The sums over a method's runs, by sample count; empty where none are kept yet. Throws Error where the file is
+    /// not whole.
     std::map<std::uint32_t, DeviationSums> load_sums(const std::string& method) const;
     void save_sums(const std::string& method, const std::map<std::uint32_t, DeviationSums>& sums) const;
 

@@ -27,7 +27,8 @@ std::vector<double> column(const std::vector<const ErrorRow*>& rows, double Erro
     return values;
 }
 
-CheckpointSummary summarize_checkpoint(std::uint32_t spp, const std::vector<const ErrorRow*>& rows, const ReferenceNoise& noise) {
+CheckpointSummary summarize_checkpoint(std::uint32_t spp, const std::vector<const ErrorRow*>& rows,
+                                       const ReferenceNoise& noise) {
     CheckpointSummary point;
     point.spp = spp;
     point.device_seconds = median(column(rows, &ErrorRow::device_seconds));
@@ -57,7 +58,8 @@ ErrorTable table_of(const std::vector<std::vector<const ErrorRow*>>& by_count, c
     return table;
 }
 
-void fit(MethodSummary& method, const std::vector<std::vector<const ErrorRow*>>& by_count, const ReferenceNoise& noise) {
+void fit(MethodSummary& method, const std::vector<std::vector<const ErrorRow*>>& by_count,
+         const ReferenceNoise& noise) {
     std::vector<std::size_t> kept;
     std::vector<double> samples;
     std::vector<bool> above_noise, relmse_above_noise;
@@ -144,16 +146,18 @@ std::string bias_text(const MethodSummary& summary, const Reference& reference) 
         return size + ": the reference's own noise, which is not known, is part of it";
     }
     if (bias.heavy > heavy_share) {
-        return size + fmt::format(": tails; of {:.0f} % of the values one run holds most of the noise, so what is rare looks lost",
-                                  100 * bias.heavy);
+        return size +
+               fmt::format(
+                   ": tails; of {:.0f} % of the values one run holds most of the noise, so what is rare looks lost",
+                   100 * bias.heavy);
     }
     return size + ": not explained here; see diptych verify";
 }
 
 }  // namespace
 
-Summary summarize_results(const ConvergeOptions& options, const std::vector<Method>& methods, const Reference& reference,
-                          const ConvergeState& state) {
+Summary summarize_results(const ConvergeOptions& options, const std::vector<Method>& methods,
+                          const Reference& reference, const ConvergeState& state) {
     Summary summary;
     summary.noise = noise_of(reference);
     std::vector<double> fit_p, bias_p, last_errors, last_times;

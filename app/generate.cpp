@@ -89,8 +89,8 @@ void add_generate(CLI::App& app, Run& run) {
     CLI::Option* count = command->add_option("--count", options->generate.count, "many-lights: emitters")
                              ->check(CLI::Range(1U, 100000000U))
                              ->capture_default_str();
-    CLI::Option* seed = command->add_option("--seed", options->generate.seed, "many-lights: which street")
-                            ->capture_default_str();
+    CLI::Option* seed =
+        command->add_option("--seed", options->generate.seed, "many-lights: which street")->capture_default_str();
     command->add_flag("--list", options->list, "Say which scenes there are");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     command->footer(examples);

@@ -106,7 +106,8 @@ void LiveView::show(const std::string& name, const Image& image) {
         shown_ = picture;
     }
     const std::size_t row_bytes = static_cast<std::size_t>(image.width) * 3 * sizeof(float);
-    const int band = static_cast<int>(std::clamp<std::size_t>(band_bytes / row_bytes, 1, static_cast<std::size_t>(image.height)));
+    const int band =
+        static_cast<int>(std::clamp<std::size_t>(band_bytes / row_bytes, 1, static_cast<std::size_t>(image.height)));
     for (int row = 0; row < image.height && socket_ >= 0; row += band) {
         const TevPacket packet = tev_update_image(name, image, row, std::min(band, image.height - row));
         send(packet.data(), packet.size());

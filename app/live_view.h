@@ -15,8 +15,8 @@ public:
     LiveView(const LiveView&) = delete;
     LiveView& operator=(const LiveView&) = delete;
 
-    /// Shows `image` (linear, three channels) under that name, in place of what was there. A viewer that is gone, or takes nothing for
-    /// some seconds, costs a warning and is left alone from then on: the render matters more.
+    /// Shows `image` (linear, three channels) under that name, in place of what was there. A viewer that is gone, or
+    /// takes nothing for some seconds, costs a warning and is left alone from then on: the render matters more.
     void show(const std::string& name, const Image& image);
 
 private:

@@ -3,7 +3,8 @@
 
 namespace diptych::app {
 
-/// Parses the command line and runs the command that it names. Returns the exit code (command.h); what is thrown becomes one line on stderr.
+/// Parses the command line and runs the command that it names. Returns the exit code (command.h); what is thrown
+/// becomes one line on stderr.
 int run_program(int argc, char** argv);
 
 }  // namespace diptych::app

@@ -36,7 +36,8 @@ std::string ProgressLine::text(const Progress& progress) const {
 }
 
 ProgressLine::ProgressLine(std::uint32_t target_spp, std::string label)
-    : target_spp_(target_spp), label_(std::move(label)), terminal_(isatty(STDERR_FILENO) == 1), next_(terminal_ ? 0 : first_sparse_line) {}
+    : target_spp_(target_spp), label_(std::move(label)), terminal_(isatty(STDERR_FILENO) == 1),
+      next_(terminal_ ? 0 : first_sparse_line) {}
 
 ProgressLine::~ProgressLine() {
     if (latest_.spp == 0) {
@@ -56,8 +57,7 @@ void ProgressLine::show(const Progress& progress) {
     }
     shown_ = progress;
     next_ = terminal_ ? progress.seconds + terminal_interval : 2 * progress.seconds;
-    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", text(progress),
-               terminal_ ? "\x1b[K" : "\n");
+    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", text(progress), terminal_ ? "\x1b[K" : "\n");
     std::fflush(stderr);
 }
 

@@ -17,8 +17,8 @@ std::string clock_text(double seconds);
 /// "128/1024 spp  12.3 Msamples/s  45.6 Mray/s  ETA 0:12  relMSE 1.2e-03"; `target_spp` 0 is unknown.
 std::string progress_text(const Progress& progress, std::uint32_t target_spp);
 
-/// `label` stands first. Redrawn in place on a terminal; elsewhere a line after 2 seconds and at each doubling of the time. Ends its line
-/// when it dies.
+/// `label` stands first. Redrawn in place on a terminal; elsewhere a line after 2 seconds and at each doubling of the
+/// time. Ends its line when it dies.
 class ProgressLine {
 public:
     explicit ProgressLine(std::uint32_t target_spp, std::string label = "");

@@ -68,8 +68,9 @@ void check_options(Options& options) {
         request.spp = 0;
     }
     if (request.target_error > 0 && request.backend != "oracle" && resamples(settings.integrator)) {
-        throw Error(fmt::format("--target-error: the frames of {} are resampled together, so their spread does not tell the error",
-                                name_of(settings.integrator)));
+        throw Error(fmt::format(
+            "--target-error: the frames of {} are resampled together, so their spread does not tell the error",
+            name_of(settings.integrator)));
     }
     settings.sample_count = options.sample_count > 0 ? options.sample_count : request.spp;
     if (settings.sampler == SamplerKind::hammersley && settings.sample_count == 0) {
@@ -81,9 +82,11 @@ void check_options(Options& options) {
         throw Error("--fps: goes with --frames");
     }
     if (request.seconds > 0 && chains_frames(settings) && request.frames + request.warm_up > 1) {
-        throw Error("--time: a chain of restir's frames repeats only if each has a known number of samples: give --spp");
+        throw Error(
+            "--time: a chain of restir's frames repeats only if each has a known number of samples: give --spp");
     }
-    if (chains_frames(settings) && static_cast<double>(request.warm_up) + request.frames > 4294967295.0 / std::max(request.spp, 1U)) {
+    if (chains_frames(settings) &&
+        static_cast<double>(request.warm_up) + request.frames > 4294967295.0 / std::max(request.spp, 1U)) {
         throw Error("--frames: a chain of restir's frames has at most 4294967295 samples");
     }
     check_writable(frame_path(request.output, 0, request.frames));
@@ -94,7 +97,8 @@ void check_options(Options& options) {
     if (request.target_error > 0 && exr && !options.layers) {
         throw Error("--no-layers: --target-error keeps the standard errors, which are one of them");
     }
-    // Where frames go on from one another their spread says too little of the mean's error: better no layer than a wrong one.
+    // Where frames go on from one another their spread says too little of the mean's error: better no layer than a
+    // wrong one.
     settings.standard_error = ((exr && options.layers) || request.target_error > 0) && !chains_frames(settings);
     settings.first_hit_layers = exr && options.layers;
 }
@@ -145,7 +149,8 @@ void add_render(CLI::App& app, Run& run) {
     options->spp_option = spp;
     command
         ->add_option("--target-error", request.target_error,
-                     "Stop where the relMSE, estimated from the spread of 16 samples or more, is below; --spp or --time are limits then")
+                     "Stop where the relMSE, estimated from the spread of 16 samples or more, is below; --spp or "
+                     "--time are limits then")
         ->check(positive_number());
     command->add_option("--time", request.seconds, "Render for so many seconds instead, to the nearest whole sample")
         ->check(CLI::Range(0.001, 1e9))
@@ -157,21 +162,21 @@ void add_render(CLI::App& app, Run& run) {
                          "Samples that hammersley is laid out for; --spp by default")
             ->check(CLI::Range(1U, 4294967295U)));
     command->add_option("--seed", request.settings.seed, "Another seed, other noise")->capture_default_str();
-    options->sequence_option =
-        command->add_option("--frames", request.frames, "Render a sequence of so many frames; --spp or --time is each one's")
-            ->check(CLI::Range(1U, 1000000U));
-    options->fps_option = command->add_option("--fps", request.fps, "Frames a second")
-                              ->check(positive_number())
-                              ->capture_default_str();
+    options->sequence_option = command
+                                   ->add_option("--frames", request.frames,
+                                                "Render a sequence of so many frames; --spp or --time is each one's")
+                                   ->check(CLI::Range(1U, 1000000U));
+    options->fps_option =
+        command->add_option("--fps", request.fps, "Frames a second")->check(positive_number())->capture_default_str();
     options->start_option =
         command->add_option("--start", request.start, "Seconds of the scene's animations at the first frame")
             ->check(non_negative_number());
     options->orbit_option =
         command->add_option("--orbit", request.orbit, "Degrees a frame that the camera turns about what it looks at")
             ->check(finite_number());
-    options->warm_up_option =
-        command->add_option("--warm-up", request.warm_up,
-                            "restir: frames that are rendered before the first, and not kept; without --frames, samples");
+    options->warm_up_option = command->add_option(
+        "--warm-up", request.warm_up,
+        "restir: frames that are rendered before the first, and not kept; without --frames, samples");
     add_integrator_option(*command, options->arguments);
     add_scene_options(*command, options->arguments);
     add_backend_options(*command, options->arguments);
@@ -183,8 +188,9 @@ void add_render(CLI::App& app, Run& run) {
         ->capture_default_str();
     options->layers_option = command->add_flag("--layers,!--no-layers", options->layers,
                                                "Write the layers beside colour; .exr only, on by default");
-    command->add_option("--live", options->live,
-                        "HOST:PORT of a running tev, to watch the picture grow in it; tev listens on 127.0.0.1:14158 by default");
+    command->add_option(
+        "--live", options->live,
+        "HOST:PORT of a running tev, to watch the picture grow in it; tev listens on 127.0.0.1:14158 by default");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     command->footer(examples);
     command->callback([options, &run] { run = [options] { return run_render(*options); }; });

@@ -138,8 +138,9 @@ Picture render_picture(Renderer& renderer, const RenderRequest& request, std::ui
     }
     picture.saved = true;
     if (totals.nonfinite > 0) {
-        report_warning(fmt::format("{}: {} of {} samples were not finite, negative or beyond what is summed, and were dropped",
-                                   request.output, totals.nonfinite, totals.samples + totals.nonfinite));
+        report_warning(
+            fmt::format("{}: {} of {} samples were not finite, negative or beyond what is summed, and were dropped",
+                        request.output, totals.nonfinite, totals.samples + totals.nonfinite));
     }
     std::vector<PassTime> passes = renderer.pass_times();
     for (std::size_t i = 0; i < passes.size(); ++i) {

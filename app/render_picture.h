@@ -18,7 +18,8 @@ struct Picture {
     bool interrupted = false;
 };
 
-/// Develops the film and writes request.output with the metadata of both, by its extension; returns what it wrote. Throws Error.
+/// Develops the film and writes request.output with the metadata of both, by its extension; returns what it wrote.
+/// Throws Error.
 LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome);
 
 /// A picture's place in a chain of them, each of which goes on from the one before.
@@ -36,8 +37,10 @@ struct PictureAudience {
     LiveView* live = nullptr;  // sees the picture now and then, and at the end
 };
 
-/// Renders until the request's samples or seconds are reached or `cancel` is set, writes request.output and says so. Throws Error.
+/// Renders until the request's samples or seconds are reached or `cancel` is set, writes request.output and says so.
+/// Throws Error.
 Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
-                       const std::atomic<bool>& cancel, const PictureAudience& audience, const PictureChain& chain = {});
+                       const std::atomic<bool>& cancel, const PictureAudience& audience,
+                       const PictureChain& chain = {});
 
 }  // namespace diptych::app

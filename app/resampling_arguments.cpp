@@ -23,14 +23,17 @@ void add_resampling_options(CLI::App& command, RenderArguments& arguments) {
     flag("--bsdf-candidate,!--no-bsdf-candidate", settings.bsdf_candidate,
          "One more by sampling the material, where it is glossy; on by default");
     flag("--temporal,!--no-temporal", settings.temporal, "restir: reuse the frame before; on by default");
-    add("--spatial-passes", settings.spatial_passes, "restir: times that neighbours are reused")->check(CLI::Range(0, 8));
+    add("--spatial-passes", settings.spatial_passes, "restir: times that neighbours are reused")
+        ->check(CLI::Range(0, 8));
     add("--neighbors", settings.neighbors, "restir: of each such pass")
         ->check(CLI::Range(1U, shared::RESAMPLING_MAX_NEIGHBORS));
     add("--reuse-radius", settings.radius, "restir: they lie within, pixels")->check(positive_number());
-    add("--confidence-cap", settings.confidence_cap, "restir: of the frame before, in frames")->check(positive_number());
+    add("--confidence-cap", settings.confidence_cap, "restir: of the frame before, in frames")
+        ->check(positive_number());
     add("--reuse-mis", arguments.resampling_mis, "restir: pairwise, balance, 1-over-z or biased-1-over-m");
     add("--reuse-visibility", arguments.resampling_visibility, "shading, target, biased-initial or biased-final");
-    add("--atlas", arguments.request.settings.atlas_tile, "Fill the film with isolated copies of the view, so many pixels wide")
+    add("--atlas", arguments.request.settings.atlas_tile,
+        "Fill the film with isolated copies of the view, so many pixels wide")
         ->check(CLI::Range(0, 4096));
 }
 

@@ -6,16 +6,17 @@
 
 namespace diptych::app {
 
-/// Loads the scene, puts the environment, the sun, the camera, its lens and the size in place, and reports the warnings, once
-/// each. Without any light it gets a neutral sky, without a camera one that frames it, both with a warning. Throws
-/// Error.
+/// Loads the scene, puts the environment, the sun, the camera, its lens and the size in place, and reports the
+/// warnings, once each. Without any light it gets a neutral sky, without a camera one that frames it, both with a
+/// warning. Throws Error.
 Scene prepare_scene(RenderArguments& arguments);
 
-/// The first half of that: the file with its environment and cameras, of which settings.camera becomes the request's. Says nothing: warnings
-/// are in the scene. Throws Error.
+/// The first half of that: the file with its environment and cameras, of which settings.camera becomes the request's.
+/// Says nothing: warnings are in the scene. Throws Error.
 Scene load_requested(RenderRequest& request);
 
-/// The rest, but for the size: what of the request another frame may change. `scene` is `loaded` or a copy, at any moment. Throws Error.
+/// The rest, but for the size: what of the request another frame may change. `scene` is `loaded` or a copy, at any
+/// moment. Throws Error.
 void place_lights(const Scene& loaded, const RenderRequest& request, Scene& scene);
 void place_camera(const RenderRequest& request, Scene& scene);
 

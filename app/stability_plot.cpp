@@ -93,7 +93,8 @@ std::string line(double x1, double y1, double x2, double y2, const std::string& 
 }
 
 std::string label(double x, double y, const char* anchor, const std::string& text, const std::string& more = "") {
-    return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' {}>{}</text>\n", x, y, anchor, more, escaped(text));
+    return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' {}>{}</text>\n", x, y, anchor, more,
+                       escaped(text));
 }
 
 std::string axes(const MeasuredCase& m, const Axis& x, const Axis& y) {
@@ -122,16 +123,18 @@ std::string axes(const MeasuredCase& m, const Axis& x, const Axis& y) {
 std::string plot_case(const StabilityReport& report, const MeasuredCase& measured) {
     const Axis x = parameter_axis(measured);
     const Axis y = error_axis(measured);
-    std::string svg = fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
-                                  "font-family='sans-serif' font-size='12' fill='#222222'>\n"
-                                  "<rect width='{0}' height='{1}' fill='#ffffff'/>\n",
-                                  width, height);
+    std::string svg =
+        fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
+                    "font-family='sans-serif' font-size='12' fill='#222222'>\n"
+                    "<rect width='{0}' height='{1}' fill='#ffffff'/>\n",
+                    width, height);
     svg += label(left, 18, "start", fmt::format("{}: {}", measured.which->row, measured.which->name), "font-size='14'");
     svg += axes(measured, x, y);
     if (measured.which->bound > 0) {
         const double at = place_y(y, measured.which->bound);
         svg += line(left, at, width - right, at, "stroke='#b00020' stroke-dasharray='2 3'");
-        svg += label(width - right - 4, at - 5, "end", fmt::format("bound {:g}", measured.which->bound), "fill='#b00020'");
+        svg +=
+            label(width - right - 4, at - 5, "end", fmt::format("bound {:g}", measured.which->bound), "fill='#b00020'");
     }
     double legend = left;
     for (std::size_t b = 0; b < measured.results.size(); ++b) {
@@ -139,8 +142,8 @@ std::string plot_case(const StabilityReport& report, const MeasuredCase& measure
         for (const stability::PointResult& p : measured.results[b].points) {
             curve += fmt::format("{:.1f},{:.1f} ", place_x(x, p.parameter), place_y(y, p.measured.error));
         }
-        const std::string style = fmt::format("stroke='{}' stroke-width='2' stroke-dasharray='{:g}'", colors[b % 2],
-                                              dashes[b % 2]);
+        const std::string style =
+            fmt::format("stroke='{}' stroke-width='2' stroke-dasharray='{:g}'", colors[b % 2], dashes[b % 2]);
         svg += fmt::format("<polyline fill='none' {} points='{}'/>\n", style, curve);
         svg += line(legend, 32, legend + 24, 32, style);
         const std::string name = fmt::format("{} ({})", report.backends[b].name, report.backends[b].device);

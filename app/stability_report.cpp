@@ -139,7 +139,8 @@ nlohmann::ordered_json to_json(const StabilityReport& report) {
             const CaseResult& r = m.results[b];
             nlohmann::ordered_json points = nlohmann::ordered_json::array();
             for (const stability::PointResult& p : r.points) {
-                points.push_back({{"at", p.parameter}, {"error", p.measured.error}, {"nonfinite", p.measured.nonfinite}});
+                points.push_back(
+                    {{"at", p.parameter}, {"error", p.measured.error}, {"nonfinite", p.measured.nonfinite}});
             }
             entry["backends"].push_back({{"name", report.backends[b].name},
                                          {"worst", r.worst},

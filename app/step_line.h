@@ -6,8 +6,8 @@
 
 namespace diptych::app {
 
-/// Redrawn in place on a terminal; elsewhere a line after 2 seconds and at each doubling of the time. On a terminal the line
-/// goes when this dies: what the steps found follows it.
+/// Redrawn in place on a terminal; elsewhere a line after 2 seconds and at each doubling of the time. On a terminal the
+/// line goes when this dies: what the steps found follows it.
 class StepLine {
 public:
     explicit StepLine(int steps);

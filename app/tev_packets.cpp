@@ -9,7 +9,8 @@ namespace diptych::app {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the protocol is little-endian, and values go out as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "the protocol is little-endian, and values go out as they lie in memory");
 
 constexpr std::uint8_t create_image = 4;
 constexpr std::uint8_t update_image_v3 = 6;
@@ -75,7 +76,8 @@ TevPacket tev_update_image(const std::string& name, const Image& image, int firs
         packet.put(std::int64_t{image.channels});  // stride
     }
     packet.append(&image.data[image.index(0, first_row, 0)],
-                  static_cast<std::size_t>(rows) * static_cast<std::size_t>(image.width * image.channels) * sizeof(float));
+                  static_cast<std::size_t>(rows) * static_cast<std::size_t>(image.width * image.channels) *
+                      sizeof(float));
     return packet.finish();
 }
 

@@ -1,5 +1,6 @@
-// Messages of tev's network protocol (github.com/Tom94/tev, README and python/ipc.py): the viewer of this field that watches renders
-// grow. A packet is its length in 4 bytes, these included, a byte for its kind, then the fields; all little-endian, strings end in a 0.
+// Messages of tev's network protocol (github.com/Tom94/tev, README and python/ipc.py): the viewer of this field that
+// watches renders grow. A packet is its length in 4 bytes, these included, a byte for its kind, then the fields; all
+// little-endian, strings end in a 0.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What most sources read and none changes, read once a build: CMake puts it before each. Every source still includes what it
-// uses, since a build may go without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
+// What most sources read and none changes, read once a build: CMake puts it before each. Every source still includes
+// what it uses, since a build may go without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 #pragma once
 
 #include <fmt/format.h>

@@ -18,8 +18,10 @@ struct AlphaKernel {
 
     bool feature(uint bit) const { return (packed.features & bit) != 0; }
 
-#define DEFINE_LOAD(Type, name) \
-    const Type& load_##name(uint index) const { return packed.name[index]; }
+#define DEFINE_LOAD(Type, name)                                                                                        \
+    const Type& load_##name(uint index) const {                                                                        \
+        return packed.name[index];                                                                                     \
+    }
     SCENE_BUFFERS(DEFINE_LOAD)
 #undef DEFINE_LOAD
 
@@ -91,7 +93,9 @@ bool count_memory(void* counter, ssize_t bytes, bool) {
 
 }  // namespace
 
-std::string embree_version() { return RTC_VERSION_STRING; }
+std::string embree_version() {
+    return RTC_VERSION_STRING;
+}
 
 EmbreeScene::EmbreeScene(const PackedScene& packed)
     : bytes_(std::make_unique<std::atomic<std::int64_t>>(0)), device_(rtcNewDevice(nullptr)) {
@@ -154,8 +158,7 @@ EmbreeScene::Placement EmbreeScene::placement(const PackedScene& packed, std::si
 }
 
 void EmbreeScene::place(RTCGeometry geometry, const Placement& placement) {
-    const RTCFormat format =
-        MUTANT(EMBREE_TRANSPOSED, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR);
+    const RTCFormat format = MUTANT(EMBREE_TRANSPOSED, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR);
     rtcSetGeometryTransform(geometry, 0, format, placement.rows.data());
     if (placement.shown) {
         rtcEnableGeometry(geometry);
@@ -255,8 +258,7 @@ EmbreeHit EmbreeScene::closest(const glm::vec3& origin, const glm::vec3& directi
     return {query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
 }
 
-bool EmbreeScene::any(const glm::vec3& origin, const glm::vec3& direction, float t_max,
-                      std::uint32_t alpha_key) const {
+bool EmbreeScene::any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
     return occluded(root_.scene.get(), origin, direction, t_max, alpha_key);
 }
 

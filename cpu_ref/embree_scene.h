@@ -30,7 +30,8 @@ struct EmbreeHit {
     float t;
 };
 
-/// One Embree scene a mesh, instanced under a root. Vertices and indices are shared with the packed scene, which must outlive this.
+/// One Embree scene a mesh, instanced under a root. Vertices and indices are shared with the packed scene, which must
+/// outlive this.
 class EmbreeScene {
 public:
     /// Throws Error with Embree's own words where a device or a build fails.
@@ -45,12 +46,13 @@ public:
     /// The same in the moment before, which is this one unless PackedScene::keeps_previous.
     bool any_previous(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const;
 
-    /// Places the instances as another moment has them. Meshes stay; the root is rebuilt where any instance moved. Throws Error where
-    /// there are more or fewer of them.
+    /// Places the instances as another moment has them. Meshes stay; the root is rebuilt where any instance moved.
+    /// Throws Error where there are more or fewer of them.
     void move_to(const PackedScene& moment);
 
-    /// The same scene under other settings: its instances and the moment before, if it keeps one, which is this one then. Hits in materials
-    /// with alpha are put to `packed` from now on; vertices and indices stay those of the first. Throws Error likewise.
+    /// The same scene under other settings: its instances and the moment before, if it keeps one, which is this one
+    /// then. Hits in materials with alpha are put to `packed` from now on; vertices and indices stay those of the
+    /// first. Throws Error likewise.
     void reconfigure(const PackedScene& packed);
 
     /// Bytes that Embree holds for its structures.

@@ -12,7 +12,7 @@ struct Dispatch {
     uint first_sample;
     uint sample_count;
     uint ray_capacity;
-    uint first_ray;  // of this dispatch, when recorded rays are traced again
+    uint first_ray;          // of this dispatch, when recorded rays are traced again
     uint first_path;         // of this dispatch, when listed paths are traced
     uint vertices_per_path;  // that are kept of each
     ResamplingPass pass;

@@ -31,7 +31,8 @@ struct Display {
 };
 ASSERT_SIZE(Display, 116);
 
-/// Numbers that are shown, counted by their size: bins of a quarter octave from 2^-32 on, what is beyond in the outermost.
+/// Numbers that are shown, counted by their size: bins of a quarter octave from 2^-32 on, what is beyond in the
+/// outermost.
 CONST uint HISTOGRAM_BINS = 256u;
 CONST uint HISTOGRAM_FIRST = (127u - 32u) << 2;  // the bin of a float is its bits >> 21, less this
 

@@ -50,10 +50,18 @@ Measured measure_width(Backend& backend, double width, Effort) {
 }  // namespace
 
 void add_film_scene_cases(std::vector<Case>& cases) {
-    cases.push_back({"accumulation", "a film of so many samples", {"samples", 4096, 67108864, true, 2, 3, 65536}, 1e-6,
-                     "relative, of any pixel", measure_long_render});
-    cases.push_back({"accumulation", "films of one pixel and of 16384 a row", {"width", 1, 16384, true, 2, 3}, 1e-6,
-                     "relative, of any pixel", measure_width});
+    cases.push_back({"accumulation",
+                     "a film of so many samples",
+                     {"samples", 4096, 67108864, true, 2, 3, 65536},
+                     1e-6,
+                     "relative, of any pixel",
+                     measure_long_render});
+    cases.push_back({"accumulation",
+                     "films of one pixel and of 16384 a row",
+                     {"width", 1, 16384, true, 2, 3},
+                     1e-6,
+                     "relative, of any pixel",
+                     measure_width});
 }
 
 }  // namespace diptych::stability

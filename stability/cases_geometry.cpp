@@ -164,31 +164,44 @@ Measured measure_flat_triangles(Backend& backend, Effort) {
 }  // namespace
 
 void add_geometry_cases(std::vector<Case>& cases) {
-    cases.push_back({"degenerate triangles", "solid angle of needles", {"aspect", 1, 1e6, true, 4, 25}, 2e-5, "relative",
+    cases.push_back({"degenerate triangles",
+                     "solid angle of needles",
+                     {"aspect", 1, 1e6, true, 4, 25},
+                     2e-5,
+                     "relative",
                      [](Backend& b, double aspect, Effort e) {
                          return measure_needles(b, aspect, e, TriangleError::solid_angle);
                      }});
-    cases.push_back({"degenerate triangles", "pdf of points on needles", {"aspect", 1, 1e6, true, 4, 25}, 2e-5,
-                     "relative", [](Backend& b, double aspect, Effort e) {
-                         return measure_needles(b, aspect, e, TriangleError::pdf);
-                     }});
-    cases.push_back({"degenerate triangles", "triangles without area are never sampled", {""}, 0, "count",
+    cases.push_back(
+        {"degenerate triangles",
+         "pdf of points on needles",
+         {"aspect", 1, 1e6, true, 4, 25},
+         2e-5,
+         "relative",
+         [](Backend& b, double aspect, Effort e) { return measure_needles(b, aspect, e, TriangleError::pdf); }});
+    cases.push_back({"degenerate triangles",
+                     "triangles without area are never sampled",
+                     {""},
+                     0,
+                     "count",
                      [](Backend& b, double, Effort e) { return measure_flat_triangles(b, e); }});
-    cases.push_back({"frames", "orthonormal about any normal", {"distance to a pole", 1e-12, 1, true, 7, 49}, 1e-6,
-                     "absolute", measure_frames});
+    cases.push_back({"frames",
+                     "orthonormal about any normal",
+                     {"distance to a pole", 1e-12, 1, true, 7, 49},
+                     1e-6,
+                     "absolute",
+                     measure_frames});
     const Range angles{"steradians", 1e-10, 6.25, true, 7, 44};
-    cases.push_back({"solid angle", "against double precision", angles, 1e-5, "relative",
-                     [](Backend& b, double omega, Effort e) {
-                         return measure_triangles(b, omega, e, TriangleError::solid_angle);
-                     }});
-    cases.push_back({"solid angle", "pdf of sampled points", angles, 1e-4, "relative",
-                     [](Backend& b, double omega, Effort e) {
-                         return measure_triangles(b, omega, e, TriangleError::pdf);
-                     }});
-    cases.push_back({"solid angle", "pdf when sampled and when hit", angles, 1e-4, "relative",
-                     [](Backend& b, double omega, Effort e) {
-                         return measure_triangles(b, omega, e, TriangleError::triple);
-                     }});
+    cases.push_back(
+        {"solid angle", "against double precision", angles, 1e-5, "relative", [](Backend& b, double omega, Effort e) {
+             return measure_triangles(b, omega, e, TriangleError::solid_angle);
+         }});
+    cases.push_back(
+        {"solid angle", "pdf of sampled points", angles, 1e-4, "relative",
+         [](Backend& b, double omega, Effort e) { return measure_triangles(b, omega, e, TriangleError::pdf); }});
+    cases.push_back(
+        {"solid angle", "pdf when sampled and when hit", angles, 1e-4, "relative",
+         [](Backend& b, double omega, Effort e) { return measure_triangles(b, omega, e, TriangleError::triple); }});
 }
 
 }  // namespace diptych::stability

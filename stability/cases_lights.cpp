@@ -89,14 +89,26 @@ Measured measure_dark_mirrors(Backend& backend, double reflectance, Effort effor
 }  // namespace
 
 void add_light_scene_cases(std::vector<Case>& cases) {
-    cases.push_back({"light range", "a lamp beside one of 10^12 times its power", {"radiance", 1e-12, 1, true, 2, 7}, 0.02,
-                     "relative", measure_dim_lamp});
-    cases.push_back({"light range", "a lamp of many emitters", {"emitters", 2, 1e6, true, 2, 4, 2e4}, 3e-3, "relative",
+    cases.push_back({"light range",
+                     "a lamp beside one of 10^12 times its power",
+                     {"radiance", 1e-12, 1, true, 2, 7},
+                     0.02,
+                     "relative",
+                     measure_dim_lamp});
+    cases.push_back({"light range",
+                     "a lamp of many emitters",
+                     {"emitters", 2, 1e6, true, 2, 4, 2e4},
+                     3e-3,
+                     "relative",
                      measure_many_emitters});
-    cases.push_back({"roulette", "a room of albedo 0.999", {"bounces", 0, 64, false, 2, 9}, 0.02, "relative",
-                     measure_white_room});
-    cases.push_back({"roulette", "throughput down to 1e-30 by three mirrors", {"reflectance", 1e-10, 1, true, 2, 11},
-                     2e-6, "relative", measure_dark_mirrors});
+    cases.push_back(
+        {"roulette", "a room of albedo 0.999", {"bounces", 0, 64, false, 2, 9}, 0.02, "relative", measure_white_room});
+    cases.push_back({"roulette",
+                     "throughput down to 1e-30 by three mirrors",
+                     {"reflectance", 1e-10, 1, true, 2, 11},
+                     2e-6,
+                     "relative",
+                     measure_dark_mirrors});
 }
 
 }  // namespace diptych::stability

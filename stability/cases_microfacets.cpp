@@ -155,7 +155,8 @@ Measured measure_masking(Backend& backend, double cosine, Effort effort) {
     return m;
 }
 
-/// What fp32 leaves of a narrow lobe: directions are rounded by 2^-24, and the lobe turns that into 1/alpha times as much.
+/// What fp32 leaves of a narrow lobe: directions are rounded by 2^-24, and the lobe turns that into 1/alpha times as
+/// much.
 Measured measure_narrow_lobe(Backend& backend, double alpha, Effort effort) {
     Uniforms u(3);
     std::vector<MeasuredInput> inputs(static_cast<std::size_t>(samples_of(effort)));
@@ -249,16 +250,28 @@ Measured measure_triple(Backend& backend, double cosine, Effort effort) {
 void add_microfacet_cases(std::vector<Case>& cases) {
     const Range alphas{"alpha", 1e-4, 1, true, 5, 33};
     const Range grazing{"cos", 1e-7, 1, true, 5, 29};
-    cases.push_back({"GGX D", "D against double precision", alphas, 1.5e-6, "relative",
-                     [](Backend& b, double alpha, Effort e) {
-                         return measure_distribution(b, Function::ggx_d, alpha, 20, e, ggx_distribution);
-                     }});
-    cases.push_back({"GGX D", "reflection of given directions", {"alpha", 1e-4, 1, true, 3, 33}, 1e-6,
-                     "relative, times alpha", measure_narrow_lobe});
-    cases.push_back({"GGX D", "a metal across the switch to a perfect mirror", {"roughness", 0.0098, 0.0102, false, 3, 9},
-                     2e-3, "absolute", measure_switch});
-    cases.push_back({"VNDF", "mean of sampled weights against quadrature", {"alpha", 1e-4, 1, true, 3, 17}, 2e-3,
-                     "absolute", measure_ggx_albedo});
+    cases.push_back(
+        {"GGX D", "D against double precision", alphas, 1.5e-6, "relative", [](Backend& b, double alpha, Effort e) {
+             return measure_distribution(b, Function::ggx_d, alpha, 20, e, ggx_distribution);
+         }});
+    cases.push_back({"GGX D",
+                     "reflection of given directions",
+                     {"alpha", 1e-4, 1, true, 3, 33},
+                     1e-6,
+                     "relative, times alpha",
+                     measure_narrow_lobe});
+    cases.push_back({"GGX D",
+                     "a metal across the switch to a perfect mirror",
+                     {"roughness", 0.0098, 0.0102, false, 3, 9},
+                     2e-3,
+                     "absolute",
+                     measure_switch});
+    cases.push_back({"VNDF",
+                     "mean of sampled weights against quadrature",
+                     {"alpha", 1e-4, 1, true, 3, 17},
+                     2e-3,
+                     "absolute",
+                     measure_ggx_albedo});
     cases.push_back({"VNDF", "facets and directions are unit vectors", grazing, 1e-6, "absolute",
                      [](Backend& b, double c, Effort e) { return measure_reflections(b, c, e, false); }});
     cases.push_back({"grazing", "masking against double precision", grazing, 2e-6, "relative", measure_masking});
@@ -266,9 +279,12 @@ void add_microfacet_cases(std::vector<Case>& cases) {
                      [](Backend& b, double c, Effort e) { return measure_reflections(b, c, e, true); }});
     cases.push_back({"grazing", "sample, eval and pdf agree", grazing, 1e-5, "relative", measure_triple});
     const Range exponents{"exponent", 1e-2, 2e8, true, 6, 41};
-    cases.push_back(
-        {"Blinn-Phong", "D against double precision", exponents, 1e-5, "relative", measure_blinn_phong});
-    cases.push_back({"Blinn-Phong", "the integral of D cos is 1", {"exponent", 1e-2, 1e6, true, 4, 25}, 2e-4, "absolute",
+    cases.push_back({"Blinn-Phong", "D against double precision", exponents, 1e-5, "relative", measure_blinn_phong});
+    cases.push_back({"Blinn-Phong",
+                     "the integral of D cos is 1",
+                     {"exponent", 1e-2, 1e6, true, 4, 25},
+                     2e-4,
+                     "absolute",
                      measure_blinn_phong_integral});
 }
 

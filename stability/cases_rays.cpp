@@ -37,7 +37,8 @@ Primitive tetrahedron(int material) {
     return p;
 }
 
-/// Under a white sky a white convex body is as bright as the sky, unless a ray that leaves it meets it again: how many did.
+/// Under a white sky a white convex body is as bright as the sky, unless a ray that leaves it meets it again: how many
+/// did.
 Measured count_self_hits(Backend& backend, Primitive body, const dvec3& eye, const dvec3& target, Effort effort) {
     Scene scene;
     scene.name = "convex";
@@ -52,7 +53,8 @@ Measured count_self_hits(Backend& backend, Primitive body, const dvec3& eye, con
     m.nonfinite = film_totals(film).nonfinite;
     m.evaluations = film_totals(film).samples;
     for (const shared::FilmPixel& pixel : film.pixels) {
-        m.error += std::abs(std::round(static_cast<double>(pixel.samples) - double{pixel.sum.x} - double{pixel.compensation.x}));
+        m.error += std::abs(
+            std::round(static_cast<double>(pixel.samples) - double{pixel.sum.x} - double{pixel.compensation.x}));
     }
     return m;
 }
@@ -101,7 +103,8 @@ Measured measure_furnace(Backend& backend, double scale, Effort effort) {
     return judge_mean(render(backend, scene, settings, spp_of(effort)), 0.25 * (1 - std::pow(0.5, 4)) / 0.5);
 }
 
-/// Below the middle of a square lamp as wide as it is high above a floor of ten units; the wall of a unit stands beside.
+/// Below the middle of a square lamp as wide as it is high above a floor of ten units; the wall of a unit stands
+/// beside.
 Measured measure_lamp_height(Backend& backend, double height, Effort effort) {
     Scene scene;
     scene.name = "lamp";
@@ -126,8 +129,8 @@ Measured count_leaks(Backend& backend, const Primitive& walls, const dvec3& eye,
     add_sky(scene, 1);
     add_object(scene, "room", {walls});
     add_camera(scene, eye, target, 100);
-    const Film film = render(backend, scene, settings_of(2 * side_of(effort), 2 * side_of(effort), depth),
-                             spp_of(effort));
+    const Film film =
+        render(backend, scene, settings_of(2 * side_of(effort), 2 * side_of(effort), depth), spp_of(effort));
     Measured m;
     m.nonfinite = film_totals(film).nonfinite;
     m.evaluations = film_totals(film).samples;
@@ -218,24 +221,60 @@ Measured measure_needle_lamp(Backend& backend, double aspect, Effort effort) {
 }  // namespace
 
 void add_ray_cases(std::vector<Case>& cases) {
-    cases.push_back({"self-intersection", "convex bodies of any size", {"scale", 1e-6, 1e6, true, 2, 13}, 0,
-                     "self-hits", measure_scale});
-    cases.push_back({"self-intersection", "a convex body whose vertices are far from their origin",
-                     {"offset", 1, 1e6, true, 2, 7}, 0, "self-hits", measure_vertex_offset});
-    cases.push_back({"self-intersection", "a furnace of any size", {"scale", 1e-6, 1e6, true, 2, 13}, 1e-5, "relative",
+    cases.push_back({"self-intersection",
+                     "convex bodies of any size",
+                     {"scale", 1e-6, 1e6, true, 2, 13},
+                     0,
+                     "self-hits",
+                     measure_scale});
+    cases.push_back({"self-intersection",
+                     "a convex body whose vertices are far from their origin",
+                     {"offset", 1, 1e6, true, 2, 7},
+                     0,
+                     "self-hits",
+                     measure_vertex_offset});
+    cases.push_back({"self-intersection",
+                     "a furnace of any size",
+                     {"scale", 1e-6, 1e6, true, 2, 13},
+                     1e-5,
+                     "relative",
                      measure_furnace});
-    cases.push_back({"shadow epsilon", "a lamp close to a floor and far from it",
-                     {"height", 1e-3, 1e5, true, 3, 9}, 3e-3, "relative", measure_lamp_height});
-    cases.push_back({"shadow epsilon", "no light through the edges of a room", {"scale", 1e-6, 1e6, true, 2, 13}, 0,
-                     "light leaked", measure_seams});
-    cases.push_back({"watertightness", "a fine sphere moved to (148376, 1234, -223423)", {"share of the way", 0, 1, false, 2, 5},
-                     2e-5, "misses", measure_watertight});
-    cases.push_back({"degenerate triangles", "a lamp of needles and of triangles without area",
-                     {"aspect", 32, 1e6, true, 2, 6}, 3e-3, "relative", measure_needle_lamp});
-    cases.push_back({"huge coordinates", "a furnace far from the origin", {"offset", 1, 1e7, true, 2, 8}, 1e-5, "relative",
+    cases.push_back({"shadow epsilon",
+                     "a lamp close to a floor and far from it",
+                     {"height", 1e-3, 1e5, true, 3, 9},
+                     3e-3,
+                     "relative",
+                     measure_lamp_height});
+    cases.push_back({"shadow epsilon",
+                     "no light through the edges of a room",
+                     {"scale", 1e-6, 1e6, true, 2, 13},
+                     0,
+                     "light leaked",
+                     measure_seams});
+    cases.push_back({"watertightness",
+                     "a fine sphere moved to (148376, 1234, -223423)",
+                     {"share of the way", 0, 1, false, 2, 5},
+                     2e-5,
+                     "misses",
+                     measure_watertight});
+    cases.push_back({"degenerate triangles",
+                     "a lamp of needles and of triangles without area",
+                     {"aspect", 32, 1e6, true, 2, 6},
+                     3e-3,
+                     "relative",
+                     measure_needle_lamp});
+    cases.push_back({"huge coordinates",
+                     "a furnace far from the origin",
+                     {"offset", 1, 1e7, true, 2, 8},
+                     1e-5,
+                     "relative",
                      measure_distance});
-    cases.push_back({"huge coordinates", "a furnace whose vertices are far from their origin", {"offset", 1, 1e5, true, 2, 6},
-                     1e-5, "relative", measure_vertex_distance});
+    cases.push_back({"huge coordinates",
+                     "a furnace whose vertices are far from their origin",
+                     {"offset", 1, 1e5, true, 2, 6},
+                     1e-5,
+                     "relative",
+                     measure_vertex_distance});
 }
 
 }  // namespace diptych::stability

@@ -150,10 +150,21 @@ Measured measure_unit_float(Backend& backend, Effort) {
     return m;
 }
 
-constexpr const char* samplers[] = {"disk", "cosine hemisphere", "uniform hemisphere", "sphere", "triangle",
-                                    "spherical triangle", "GGX normal", "Blinn-Phong normal", "GGX surface",
-                                    "Blinn-Phong surface", "alias table", "alias table, empty column", "numbers below 1",
-                                    "reservoir, first", "reservoir, weight 0"};
+constexpr const char* samplers[] = {"disk",
+                                    "cosine hemisphere",
+                                    "uniform hemisphere",
+                                    "sphere",
+                                    "triangle",
+                                    "spherical triangle",
+                                    "GGX normal",
+                                    "Blinn-Phong normal",
+                                    "GGX surface",
+                                    "Blinn-Phong surface",
+                                    "alias table",
+                                    "alias table, empty column",
+                                    "numbers below 1",
+                                    "reservoir, first",
+                                    "reservoir, weight 0"};
 
 Measured measure_ends(Backend& backend, double alpha, Effort) {
     std::vector<MeasuredInput> inputs;
@@ -189,20 +200,42 @@ Measured measure_ends(Backend& backend, double alpha, Effort) {
 }  // namespace
 
 void add_sum_cases(std::vector<Case>& cases) {
-    cases.push_back({"light range", "odds of a dim light beside a bright one", {"ratio of powers", 1, 1e24, true, 3, 13},
-                     4.5, "standard errors", measure_light_table});
-    cases.push_back({"light range", "MIS weights of any two densities", {"pdf", 1e-37, 1e37, true, 5, 38}, 1e-6,
-                     "absolute", measure_mis});
-    cases.push_back({"reservoirs", "odds among weights of 0, a denormal, infinity, NaN",
-                     {"scale of the weights", 1e-30, 1e30, true, 5, 31}, 5, "standard errors", measure_odds});
-    cases.push_back({"reservoirs", "sum of equal weights",
-                     {"candidates", 16384, 33554432, true, 12, 12}, 1e-6, "relative", measure_equal_weights});
-    cases.push_back({"accumulation", "sums of a pixel against double precision",
-                     {"samples", 4096, 67108864, true, 2, 8, 1048576}, 1e-6, "relative", measure_film});
-    cases.push_back({"ends of u", "numbers are multiples of 2^-24 below 1", {""}, 0, "absolute",
-                     [](Backend& b, double, Effort e) { return measure_unit_float(b, e); }});
-    cases.push_back({"ends of u", "every sampler at both ends", {"alpha", 1e-4, 1, true, 3, 9}, 0, "count",
-                     measure_ends});
+    cases.push_back({"light range",
+                     "odds of a dim light beside a bright one",
+                     {"ratio of powers", 1, 1e24, true, 3, 13},
+                     4.5,
+                     "standard errors",
+                     measure_light_table});
+    cases.push_back({"light range",
+                     "MIS weights of any two densities",
+                     {"pdf", 1e-37, 1e37, true, 5, 38},
+                     1e-6,
+                     "absolute",
+                     measure_mis});
+    cases.push_back({"reservoirs",
+                     "odds among weights of 0, a denormal, infinity, NaN",
+                     {"scale of the weights", 1e-30, 1e30, true, 5, 31},
+                     5,
+                     "standard errors",
+                     measure_odds});
+    cases.push_back({"reservoirs",
+                     "sum of equal weights",
+                     {"candidates", 16384, 33554432, true, 12, 12},
+                     1e-6,
+                     "relative",
+                     measure_equal_weights});
+    cases.push_back({"accumulation",
+                     "sums of a pixel against double precision",
+                     {"samples", 4096, 67108864, true, 2, 8, 1048576},
+                     1e-6,
+                     "relative",
+                     measure_film});
+    cases.push_back(
+        {"ends of u", "numbers are multiples of 2^-24 below 1", {""}, 0, "absolute", [](Backend& b, double, Effort e) {
+             return measure_unit_float(b, e);
+         }});
+    cases.push_back(
+        {"ends of u", "every sampler at both ends", {"alpha", 1e-4, 1, true, 3, 9}, 0, "count", measure_ends});
 }
 
 }  // namespace diptych::stability

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-MeasuredInput mapped_input(const dvec3& o, const dvec3& smooth, const dvec3& mapped, double roughness, double metallic) {
+MeasuredInput mapped_input(const dvec3& o, const dvec3& smooth, const dvec3& mapped, double roughness,
+                           double metallic) {
     MeasuredInput p{};
     take_vec3(p, 0, o);
     take_vec3(p, 3, smooth);
@@ -87,8 +88,10 @@ Measured measure_map_energy(Backend& backend, double degrees, Effort effort, dou
             const auto of_facet = [&](const dvec3& w) {
                 return metallic < 0 ? 1.0 : ggx_albedo(std::min(dot(w, facet), 1.0), roughness * roughness);
             };
-            const double truth = (share > 0 ? share * of_facet(o) : 0) + (share < 1 ? (1 - share) * of_facet(turned) : 0);
-            worsen(m, std::abs(albedo - truth), fmt::format("view {:g}, azimuth {:.2f}: {:.4f}", view, azimuth, albedo));
+            const double truth =
+                (share > 0 ? share * of_facet(o) : 0) + (share < 1 ? (1 - share) * of_facet(turned) : 0);
+            worsen(m, std::abs(albedo - truth),
+                   fmt::format("view {:g}, azimuth {:.2f}: {:.4f}", view, azimuth, albedo));
         }
     }
     return m;
@@ -98,12 +101,19 @@ Measured measure_map_energy(Backend& backend, double degrees, Effort effort, dou
 
 void add_surface_cases(std::vector<Case>& cases) {
     const Range tilts{"degrees", 0, 89, false, 4, 90};
-    cases.push_back({"shading normals", "sample, eval and pdf agree under interpolated normals", tilts, 1e-4, "relative",
+    cases.push_back({"shading normals", "sample, eval and pdf agree under interpolated normals", tilts, 1e-4,
+                     "relative",
                      [](Backend& b, double tilt, Effort e) { return measure_interpolated(b, tilt, e, false); }});
-    cases.push_back({"shading normals", "energy of a white diffuse surface under a tilted map",
-                     {"degrees", 0, 85, false, 3, 18}, 1e-4, "absolute",
+    cases.push_back({"shading normals",
+                     "energy of a white diffuse surface under a tilted map",
+                     {"degrees", 0, 85, false, 3, 18},
+                     1e-4,
+                     "absolute",
                      [](Backend& b, double tilt, Effort e) { return measure_map_energy(b, tilt, e, 1, -1); }});
-    cases.push_back({"shading normals", "energy of a rough metal under a tilted map", {"degrees", 0, 85, false, 2, 18}, 0.02,
+    cases.push_back({"shading normals",
+                     "energy of a rough metal under a tilted map",
+                     {"degrees", 0, 85, false, 2, 18},
+                     0.02,
                      "absolute",
                      [](Backend& b, double tilt, Effort e) { return measure_map_energy(b, tilt, e, 0.5, 1); }});
     cases.push_back({"shading normals", "sample, eval and pdf agree under normal maps", tilts, 1e-3, "relative",

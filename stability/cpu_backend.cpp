@@ -1,7 +1,7 @@
 #include <tbb/parallel_for.h>
 
-#include "stability_backend.h"
 #include "backend/cpu_renderer.h"
+#include "stability_backend.h"
 
 namespace diptych::stability {
 

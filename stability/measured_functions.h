@@ -6,9 +6,9 @@
 #include "measured_microfacets.h"
 #include "measured_sums.h"
 
-#define MEASURED_FUNCTIONS(X) \
-    MEASURED_MICROFACETS(X)   \
-    MEASURED_GEOMETRY(X)      \
+#define MEASURED_FUNCTIONS(X)                                                                                          \
+    MEASURED_MICROFACETS(X)                                                                                            \
+    MEASURED_GEOMETRY(X)                                                                                               \
     MEASURED_SUMS(X)
 
 #endif

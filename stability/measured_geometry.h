@@ -13,8 +13,9 @@ FN void measure_frame(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     give_vec3(o, 3u, f.bitangent);
 }
 
-/// An emitter seen from 0, as emitters are kept: x 0-2 unit normal, 3-5 vertex, 6-8 and 9-11 edges, 12-13 u, 14 twice its area -> y 0
-/// solid angle, 1-2 barycentrics sampled, 3 their pdf, 4 the pdf that the same point has when a ray finds it.
+/// An emitter seen from 0, as emitters are kept: x 0-2 unit normal, 3-5 vertex, 6-8 and 9-11 edges, 12-13 u, 14 twice
+/// its area -> y 0 solid angle, 1-2 barycentrics sampled, 3 their pdf, 4 the pdf that the same point has when a ray
+/// finds it.
 FN void measure_triangle(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     vec3 v0 = measured_vec3(p, 3u);
     vec3 e1 = measured_vec3(p, 6u);
@@ -31,8 +32,8 @@ FN void measure_triangle(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
 
 SHARED_END
 
-#define MEASURED_GEOMETRY(X) \
-    X(frame)                 \
+#define MEASURED_GEOMETRY(X)                                                                                           \
+    X(frame)                                                                                                           \
     X(triangle)
 
 #endif

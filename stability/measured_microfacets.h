@@ -24,7 +24,8 @@ FN void measure_ggx_masking(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     o.y[2] = ggx_weight(wo, wi, p.x[6]);
 }
 
-/// x 0-2 wo, 3 alpha, 4-5 u; n 0 model -> y 0-2 facet, 3-5 direction, 6 reflection without Fresnel, 7 pdf; n 0: 0 for a null sample.
+/// x 0-2 wo, 3 alpha, 4-5 u; n 0 model -> y 0-2 facet, 3-5 direction, 6 reflection without Fresnel, 7 pdf; n 0: 0 for a
+/// null sample.
 FN void measure_reflect(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     vec3 wo = measured_vec3(p, 0u);
     float alpha = p.x[3];
@@ -53,8 +54,8 @@ FN BsdfParameters measured_material(float metallic, float roughness, uint model)
     return bsdf_parameters(vec3(1.0f, 1.0f, 1.0f), metallic, roughness, 0.04f, specular, vec3(1.0f, 1.0f, 1.0f), model);
 }
 
-/// x 0-2 wo, 3 roughness, 4 metallic, 5-7 u; n 0 model -> y 0-2 direction, 3 weight, 4 pdf, 5 and 6 value and pdf of eval there; n 0
-/// delta, 1 lobe.
+/// x 0-2 wo, 3 roughness, 4 metallic, 5-7 u; n 0 model -> y 0-2 direction, 3 weight, 4 pdf, 5 and 6 value and pdf of
+/// eval there; n 0 delta, 1 lobe.
 FN void measure_bsdf_sample(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     vec3 wo = measured_vec3(p, 0u);
     BsdfParameters b = measured_material(p.x[4], p.x[3], p.n[0]);
@@ -77,8 +78,8 @@ FN void measure_bsdf_eval(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     o.y[1] = v.pdf;
 }
 
-/// On the plane z = 0: x 0-2 wo, 3-5 interpolated normal, 6-8 mapped normal, 9 roughness, 10 metallic, 11-14 u; n 0: 1 for a map ->
-/// y 0-2 direction, 3 weight, 4 pdf, 5 and 6 value and pdf of eval there; n 0 delta.
+/// On the plane z = 0: x 0-2 wo, 3-5 interpolated normal, 6-8 mapped normal, 9 roughness, 10 metallic, 11-14 u; n 0: 1
+/// for a map -> y 0-2 direction, 3 weight, 4 pdf, 5 and 6 value and pdf of eval there; n 0 delta.
 FN void measure_mapped_surface(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     SurfaceBsdf s;
     s.parameters = measured_material(p.x[10], p.x[9], BRDF_GGX);
@@ -99,13 +100,13 @@ FN void measure_mapped_surface(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
 
 SHARED_END
 
-#define MEASURED_MICROFACETS(X) \
-    X(ggx_d)                    \
-    X(blinn_phong_d)            \
-    X(ggx_masking)              \
-    X(reflect)                  \
-    X(bsdf_sample)              \
-    X(bsdf_eval)                \
+#define MEASURED_MICROFACETS(X)                                                                                        \
+    X(ggx_d)                                                                                                           \
+    X(blinn_phong_d)                                                                                                   \
+    X(ggx_masking)                                                                                                     \
+    X(reflect)                                                                                                         \
+    X(bsdf_sample)                                                                                                     \
+    X(bsdf_eval)                                                                                                       \
     X(mapped_surface)
 
 #endif

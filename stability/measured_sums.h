@@ -12,7 +12,8 @@ FN vec3 measured_sample(float value, uint n) {
     return vec3(value, random, (n & 4095u) == 0u ? 1.0e6f * value : value * random);
 }
 
-/// A pixel on its way: x 0-2 sum, 3-5 compensation, 6 value; n 0 samples so far, 1 how many to add -> y 0-2, 3-5; n 0 samples, 1 dropped.
+/// A pixel on its way: x 0-2 sum, 3-5 compensation, 6 value; n 0 samples so far, 1 how many to add -> y 0-2, 3-5; n 0
+/// samples, 1 dropped.
 FN void measure_film(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     FilmPixel pixel;
     pixel.sum = measured_vec3(p, 0u);
@@ -30,8 +31,8 @@ FN void measure_film(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     o.n[1] = pixel.nonfinite;
 }
 
-/// A reservoir on its way: x 0-7 weights that come by in turn, 8 and 9 the sum so far; n 0 how many come, 1 seed -> y 0 W for a target of
-/// 1 over n 0, 1 and 2 the sum; n 0 which came last to be kept, modulo 8; NONE: nothing.
+/// A reservoir on its way: x 0-7 weights that come by in turn, 8 and 9 the sum so far; n 0 how many come, 1 seed -> y 0
+/// W for a target of 1 over n 0, 1 and 2 the sum; n 0 which came last to be kept, modulo 8; NONE: nothing.
 FN void measure_reservoir(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     Resampling s = begin_resampling();
     s.weight_sum = p.x[8];
@@ -48,7 +49,8 @@ FN void measure_reservoir(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     o.n[0] = r.point.light;
 }
 
-/// An alias table of eight: x 0-7 probabilities to keep, n 0 aliases of four bits each, n 1 entries, n 2-3 random words -> n 0 the pick.
+/// An alias table of eight: x 0-7 probabilities to keep, n 0 aliases of four bits each, n 1 entries, n 2-3 random words
+/// -> n 0 the pick.
 FN void measure_alias(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     uint column = alias_column(p.n[2], p.n[1]);
     AliasEntry e;
@@ -76,8 +78,8 @@ FN uint measured_fault(uint bit, bool fine) {
     return fine ? 0u : 1u << bit;
 }
 
-/// Every sampler at the ends of its random numbers: n 0, 1, 2 words, x 0 alpha, 1-3 wo -> n 0 a bit for each sampler that gave what it
-/// may not; y 0-2 the numbers.
+/// Every sampler at the ends of its random numbers: n 0, 1, 2 words, x 0 alpha, 1-3 wo -> n 0 a bit for each sampler
+/// that gave what it may not; y 0-2 the numbers.
 FN void measure_ends_of_u(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     vec2 u = vec2(unit_float(p.n[0]), unit_float(p.n[1]));
     float u_lobe = unit_float(p.n[2]);
@@ -92,8 +94,8 @@ FN void measure_ends_of_u(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     faults |= measured_fault(3u, measured_unit(w));
     vec2 b = sample_triangle(u);
     faults |= measured_fault(4u, b.x >= 0.0f && b.y >= 0.0f && b.x + b.y <= 1.0f);
-    TriangleSample t = sample_triangle_solid_angle(vec3(0.0f, 0.0f, 0.0f), vec3(-0.5f, -0.4f, 1.0f), vec3(1.1f, 0.1f, 0.2f),
-                                                   vec3(0.2f, 0.9f, -0.3f), u);
+    TriangleSample t = sample_triangle_solid_angle(vec3(0.0f, 0.0f, 0.0f), vec3(-0.5f, -0.4f, 1.0f),
+                                                   vec3(1.1f, 0.1f, 0.2f), vec3(0.2f, 0.9f, -0.3f), u);
     b = t.barycentrics;
     faults |= measured_fault(5u, t.pdf > 0.0f && b.x >= 0.0f && b.y >= 0.0f && b.x + b.y <= 1.000001f);
     w = sample_ggx_visible_normal(wo, p.x[0], u);
@@ -101,7 +103,8 @@ FN void measure_ends_of_u(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     w = sample_blinn_phong_normal(p.x[0], u);
     faults |= measured_fault(7u, measured_unit(w) && w.z >= 0.0f);
     for (uint model = 0u; model < 2u; ++model) {
-        BsdfParameters m = bsdf_parameters(vec3(0.8f, 0.8f, 0.8f), 0.0f, sqrt(p.x[0]), 0.04f, 1.0f, vec3(1.0f, 1.0f, 1.0f), model);
+        BsdfParameters m =
+            bsdf_parameters(vec3(0.8f, 0.8f, 0.8f), 0.0f, sqrt(p.x[0]), 0.04f, 1.0f, vec3(1.0f, 1.0f, 1.0f), model);
         BsdfSample s = bsdf_sample_local(m, wo, u_lobe, u, 0xffffffffu);
         faults |= measured_fault(8u + model, s.pdf >= 0.0f && s.pdf < INFINITE_DISTANCE && s.weight.x >= 0.0f &&
                                                  s.weight.x < INFINITE_DISTANCE && measured_unit(s.direction));
@@ -130,12 +133,12 @@ FN void measure_ends_of_u(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
 
 SHARED_END
 
-#define MEASURED_SUMS(X) \
-    X(film)              \
-    X(reservoir)         \
-    X(alias)             \
-    X(mis)               \
-    X(unit_float)        \
+#define MEASURED_SUMS(X)                                                                                               \
+    X(film)                                                                                                            \
+    X(reservoir)                                                                                                       \
+    X(alias)                                                                                                           \
+    X(mis)                                                                                                             \
+    X(unit_float)                                                                                                      \
     X(ends_of_u)
 
 #endif

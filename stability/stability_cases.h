@@ -1,5 +1,5 @@
-// The cases of numerical stability: for each row of the table of extremes what is measured, over which range, and how far it may be
-// off. `diptych stability` prints them and tests/extremes holds them, so that table and tests are one.
+// The cases of numerical stability: for each row of the table of extremes what is measured, over which range, and how
+// far it may be off. `diptych stability` prints them and tests/extremes holds them, so that table and tests are one.
 #pragma once
 
 #include <functional>
@@ -15,10 +15,10 @@ enum class Effort { quick, full };
 
 /// What one point of a case's range came to.
 struct Measured {
-    double error = 0;              // the worst
-    std::uint64_t nonfinite = 0;   // results that should have been numbers, samples that a film dropped
-    std::uint64_t evaluations = 0; // results, or samples
-    std::string where;             // beside the parameter, where the worst was
+    double error = 0;               // the worst
+    std::uint64_t nonfinite = 0;    // results that should have been numbers, samples that a film dropped
+    std::uint64_t evaluations = 0;  // results, or samples
+    std::string where;              // beside the parameter, where the worst was
 };
 
 /// The parameter's points, spread evenly or by ratio.
@@ -33,8 +33,8 @@ struct Range {
 };
 
 struct Case {
-    const char* row;      // of the table of extremes
-    const char* name;     // what is measured against what
+    const char* row;   // of the table of extremes
+    const char* name;  // what is measured against what
     Range range;
     double bound;         // that the error may reach
     const char* measure;  // what kind of error: "relative", "absolute", "count", …

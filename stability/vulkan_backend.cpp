@@ -1,5 +1,5 @@
-#include "stability_backend.h"
 #include "error.h"
+#include "stability_backend.h"
 #if DIPTYCH_VULKAN
 #include "compute_shader.h"
 #include "readback.h"
@@ -16,7 +16,8 @@ namespace {
 class VulkanBackend : public Backend {
 public:
     VulkanBackend(const std::string& device, bool validation)
-        : device_(device), validation_(validation), gpu_(open_gpu({.device = device, .validation = validation_wanted(validation)})),
+        : device_(device), validation_(validation),
+          gpu_(open_gpu({.device = device, .validation = validation_wanted(validation)})),
           shader_(*gpu_, stability_shader_binary("measured.comp"), 2) {}
 
     std::string name() const override { return "vulkan"; }

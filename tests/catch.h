@@ -7,7 +7,9 @@
 #include <catch2/catch_all.hpp>
 using Catch::Approx;
 namespace Catch {
-inline auto Contains(const std::string& text) { return Matchers::ContainsSubstring(text); }
+inline auto Contains(const std::string& text) {
+    return Matchers::ContainsSubstring(text);
+}
 }  // namespace Catch
 #else
 #include <catch2/catch.hpp>
@@ -21,8 +23,8 @@ void report_skipped(const std::string& reason);
 }  // namespace diptych::tests
 
 /// Leaves the test case, whose needs this machine does not meet.
-#define SKIP_TEST(reason)                        \
-    do {                                         \
-        diptych::tests::report_skipped(reason);  \
-        return;                                  \
+#define SKIP_TEST(reason)                                                                                              \
+    do {                                                                                                               \
+        diptych::tests::report_skipped(reason);                                                                        \
+        return;                                                                                                        \
     } while (false)

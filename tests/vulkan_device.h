@@ -8,7 +8,8 @@ namespace diptych::tests {
 /// Whether a usable Vulkan device exists.
 bool has_vulkan();
 
-/// Whether the validation layer is installed; says SKIPPED once where it is not. Every test of a device is one of validation too.
+/// Whether the validation layer is installed; says SKIPPED once where it is not. Every test of a device is one of
+/// validation too.
 bool has_validation_layer();
 
 /// Fails on any validation message since the last call.

@@ -34,7 +34,7 @@ struct TopLevel {
     Buffer scratch;
     Buffer instances;
     std::vector<vk::AccelerationStructureInstanceKHR> described;  // as it was built
-    std::uint64_t revision = 0;  // of the instances that it describes
+    std::uint64_t revision = 0;                                   // of the instances that it describes
 };
 
 /// How much memory one batch of builds may take; a mesh that needs more is a batch of its own.
@@ -47,7 +47,8 @@ struct BuildLimits {
 BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene,
                                  const InstanceGroups& groups, const BuildLimits& limits = {});
 
-/// The first grouped instance that is not where it was when its group was built; after packing about another origin that is any of them.
+/// The first grouped instance that is not where it was when its group was built; after packing about another origin
+/// that is any of them.
 std::optional<std::size_t> first_moved(const PackedScene& packed, const BottomLevels& bottom);
 
 /// Where an instance stands, as builds take it.

@@ -13,7 +13,8 @@ constexpr std::uint32_t previous_binding = 3;
 }  // namespace
 
 Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::AccelerationStructureKHR structure,
-                       vk::AccelerationStructureKHR previous, const SceneAddresses& addresses, const shared::RenderConstants& constants) {
+                       vk::AccelerationStructureKHR previous, const SceneAddresses& addresses,
+                       const shared::RenderConstants& constants) {
     using Type = vk::DescriptorType;
     Bindings made;
     Uploader uploader(gpu, 4096);
@@ -53,7 +54,8 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
 
 void replace_structures(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure,
                         vk::AccelerationStructureKHR previous) {
-    for (const auto& [binding, handle] : {std::pair(structure_binding, structure), std::pair(previous_binding, previous)}) {
+    for (const auto& [binding, handle] :
+         {std::pair(structure_binding, structure), std::pair(previous_binding, previous)}) {
         vk::WriteDescriptorSetAccelerationStructureKHR handles;
         handles.setAccelerationStructures(handle);
         const vk::WriteDescriptorSet write{.pNext = &handles,

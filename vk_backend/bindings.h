@@ -17,7 +17,8 @@ struct Bindings {
 
 /// `previous`: of the moment before; the same where there is none.
 Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::AccelerationStructureKHR structure,
-                       vk::AccelerationStructureKHR previous, const SceneAddresses& addresses, const shared::RenderConstants& constants);
+                       vk::AccelerationStructureKHR previous, const SceneAddresses& addresses,
+                       const shared::RenderConstants& constants);
 
 /// Puts other constants in the place of those it was made with. Nothing that reads them may be in flight.
 void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants);

@@ -46,7 +46,8 @@ Buffer make_buffer(const Gpu& gpu, const char* what, std::uint64_t size, vk::Buf
         return buffer;
     }
     if (size > largest_heap(gpu)) {
-        throw Error("Vulkan device " + gpu.name + ": " + what + ": " + std::to_string(size) + " bytes are more than it has");
+        throw Error("Vulkan device " + gpu.name + ": " + what + ": " + std::to_string(size) +
+                    " bytes are more than it has");
     }
     in_context(std::string("allocating ") + std::to_string(size) + " bytes for " + what, [&] {
         buffer.handle = gpu.device.createBuffer({.size = size, .usage = usage});

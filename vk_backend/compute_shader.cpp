@@ -56,8 +56,8 @@ void ComputeShader::run(std::span<const Buffer* const> buffers, std::uint32_t co
 
 Buffer make_storage(const Gpu& gpu, std::uint64_t bytes) {
     using Usage = vk::BufferUsageFlagBits;
-    return make_buffer(gpu, "a compute shader", bytes, Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst,
-                       MemoryKind::device);
+    return make_buffer(gpu, "a compute shader", bytes,
+                       Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst, MemoryKind::device);
 }
 
 }  // namespace diptych

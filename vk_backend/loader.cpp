@@ -40,7 +40,8 @@ bool has_layer(const vk::raii::Context& context) {
                        [](const auto& layer) { return std::strcmp(layer.layerName, layer_name) == 0; });
 }
 
-vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation, std::span<const std::string> wanted) {
+vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation,
+                                 std::span<const std::string> wanted) {
     const vk::ApplicationInfo application{.pApplicationName = "diptych", .apiVersion = VK_API_VERSION_1_2};
     vk::InstanceCreateInfo info{.pApplicationInfo = &application};
     std::vector<const char*> extensions;

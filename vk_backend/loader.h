@@ -17,8 +17,8 @@ struct VulkanInstance {
 };
 
 /// Opens the loader (the library named by DIPTYCH_VULKAN_LOADER, else the system's) and makes a Vulkan 1.2 instance,
-/// with core and synchronisation validation where asked for, and with the extensions named. Throws NoDevice where there is
-/// no loader, no driver, an older Vulkan or no such extension; Error where the validation layer is missing.
+/// with core and synchronisation validation where asked for, and with the extensions named. Throws NoDevice where there
+/// is no loader, no driver, an older Vulkan or no such extension; Error where the validation layer is missing.
 VulkanInstance open_instance(bool validation, std::span<const std::string> extensions = {});
 
 }  // namespace diptych

@@ -19,7 +19,8 @@ double seconds_since(Clock::time_point start) {
 // has been given settings that fit.
 void PathRenderer::reconfigure(const PackedScene& packed) {
     const std::size_t groups = bottom_.groups.groups.size();
-    if (packed.instances.size() + groups != top_.described.size() || packed.meshes.size() + groups != bottom_.addresses.size() ||
+    if (packed.instances.size() + groups != top_.described.size() ||
+        packed.meshes.size() + groups != bottom_.addresses.size() ||
         packed.positions.size() * sizeof(shared::vec3) != scene_.positions.size ||
         packed.triangles.size() * sizeof(shared::uvec3) != scene_.triangles.size) {
         throw Error("Vulkan device " + gpu_->name + ": these are the settings of another scene");

@@ -22,16 +22,16 @@ Buffer record_buffer(const Gpu& gpu, std::uint64_t bytes) {
 
 }  // namespace
 
-void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& constants, std::uint32_t vertices_per_path,
-                                const Buffer& vertices, const Buffer& summaries) {
+void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& constants,
+                                std::uint32_t vertices_per_path, const Buffer& vertices, const Buffer& summaries) {
     require_bound();
     const TracePipeline& recorder = pipeline(shader_binary("record.rgen"));
     if (!recording_speed_) {
         recording_speed_.emplace(dispatch_seconds_);
     }
     Uploader uploader(*gpu_);
-    const Buffer list = upload_array(*gpu_, uploader, "paths to trace", queries,
-                                     Usage::eStorageBuffer | Usage::eShaderDeviceAddress);
+    const Buffer list =
+        upload_array(*gpu_, uploader, "paths to trace", queries, Usage::eStorageBuffer | Usage::eShaderDeviceAddress);
     uploader.finish();
     SceneAddresses all = addresses(*film_);
     all.path_queries = list.address;
@@ -46,8 +46,7 @@ void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& 
         dispatch.first_path = static_cast<std::uint32_t>(first);
         dispatch.vertices_per_path = vertices_per_path;
         queue.submit(count, [&](const vk::raii::CommandBuffer& commands) {
-            record_dispatch(commands, recorder, layout_, bindings, dispatch,
-                            static_cast<std::uint32_t>(count), 1);
+            record_dispatch(commands, recorder, layout_, bindings, dispatch, static_cast<std::uint32_t>(count), 1);
         });
         first += count;
     }

@@ -54,7 +54,8 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
                    with_options(changes, options)) {}
 
 PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, const PathRendererOptions& changes)
-    : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes), schedule_(packed.constants) {
+    : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes),
+      schedule_(packed.constants) {
     const auto start = std::chrono::steady_clock::now();
     in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
     in_context("building acceleration structures", [&] { build_structures(packed); });
@@ -90,8 +91,8 @@ void PathRenderer::count_bytes() {
                    resampling_memory_bytes(*resampling_);
 }
 
-// An empty film that nobody looks at: what is shown stays whole while the next picture begins. There are as many of them as are looked at
-// at a time, and one more.
+// An empty film that nobody looks at: what is shown stays whole while the next picture begins. There are as many of
+// them as are looked at at a time, and one more.
 void PathRenderer::begin_film() {
     const auto size = glm::ivec2(constants_.size);
     std::erase_if(films_, [&](const auto& film) { return !fits(*film, size.x, size.y, features_); });
@@ -121,9 +122,10 @@ TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) cons
     const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
     const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
     const bool alpha = (features_ & shared::FEATURE_ALPHA) != 0;
-    TracePipeline pipeline =
-        make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha),
-                      {.features = features_, .record_rays = record_rays ? 1U : 0U, .groups = bottom_.groups.groups.empty() ? 0U : 1U});
+    TracePipeline pipeline = make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha),
+                                           {.features = features_,
+                                            .record_rays = record_rays ? 1U : 0U,
+                                            .groups = bottom_.groups.groups.empty() ? 0U : 1U});
     save_pipeline_cache(cache, cache_path);
     return pipeline;
 }

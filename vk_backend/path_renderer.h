@@ -22,7 +22,8 @@
 
 namespace diptych {
 
-/// Whether instances that stand still are gathered (instance_groups.h): on a GPU, where that pays (decision 0010), or for a test anywhere.
+/// Whether instances that stand still are gathered (instance_groups.h): on a GPU, where that pays (decision 0010), or
+/// for a test anywhere.
 enum class Grouping { nowhere, on_gpus, anywhere };
 
 /// What tests change.
@@ -56,8 +57,8 @@ public:
 
     const BottomLevels& bottom_levels() const { return bottom_; }
 
-    /// What there is to be seen, for a display pass on the same device; what is added to this picture later shows in it too. It stays as it is
-    /// while the next picture begins.
+    /// What there is to be seen, for a display pass on the same device; what is added to this picture later shows in it
+    /// too. It stays as it is while the next picture begins.
     DeviceFilm device_film() const;
     /// Seconds of device time a dispatch may take from now on: whoever shares the queue waits for two of them at most.
     void aim_dispatches(double seconds);
@@ -96,10 +97,12 @@ private:
     TopLevel top_;
     TopLevel previous_top_;            // of the moment before, where PackedScene::keeps_previous
     std::unique_ptr<Uploader> mover_;  // made at the first move
-    std::vector<std::shared_ptr<FilmMemory>> films_;  // of the present size and layers; one is film_, the others may be looked at
+    std::vector<std::shared_ptr<FilmMemory>>
+        films_;  // of the present size and layers; one is film_, the others may be looked at
     std::shared_ptr<FilmMemory> film_;
     PipelineLayout layout_;
-    std::map<std::tuple<const std::uint32_t*, std::uint32_t, bool>, TracePipeline> pipelines_;  // by ray generation shader, features, groups
+    std::map<std::tuple<const std::uint32_t*, std::uint32_t, bool>, TracePipeline>
+        pipelines_;  // by ray generation shader, features, groups
     const TracePipeline* path_ = nullptr;
     std::shared_ptr<ResamplingMemory> resampling_;
     std::array<const TracePipeline*, resampling_stages> stages_{};

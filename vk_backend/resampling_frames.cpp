@@ -5,8 +5,8 @@
 
 namespace diptych {
 
-// Passes of a fast device go together in one submission, up to the budget; a pass of a slow one is cut into several. A frame that has
-// begun is finished, or its reservoirs would be of two frames.
+// Passes of a fast device go together in one submission, up to the budget; a pass of a slow one is cut into several. A
+// frame that has begun is finished, or its reservoirs would be of two frames.
 void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
     std::vector<TimedPart> parts;
     std::uint64_t work = 0;
@@ -31,8 +31,8 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
                 dispatch.pass = step.pass;
                 parts.push_back({step.place, [this, dispatch, slice, stage = step.stage](const auto& commands) {
                                      full_barrier(commands);
-                                     record_dispatch(commands, *stages_[static_cast<std::size_t>(stage)], layout_, bindings_,
-                                                     dispatch, slice.region.width, slice.region.height);
+                                     record_dispatch(commands, *stages_[static_cast<std::size_t>(stage)], layout_,
+                                                     bindings_, dispatch, slice.region.width, slice.region.height);
                                  }});
                 work += slice.work();
             }

@@ -6,12 +6,12 @@ namespace diptych {
 namespace {
 
 Buffer film_buffer(const Gpu& gpu, const char* what, std::uint64_t bytes) {
-    return bytes == 0 ? Buffer{}
-                      : make_buffer(gpu, what, bytes,
-                                    vk::BufferUsageFlagBits::eStorageBuffer |
-                                        vk::BufferUsageFlagBits::eShaderDeviceAddress |
-                                        vk::BufferUsageFlagBits::eTransferSrc,
-                                    MemoryKind::device);
+    return bytes == 0
+               ? Buffer{}
+               : make_buffer(gpu, what, bytes,
+                             vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eShaderDeviceAddress |
+                                 vk::BufferUsageFlagBits::eTransferSrc,
+                             MemoryKind::device);
 }
 
 struct Bytes {
@@ -55,14 +55,14 @@ std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory) {
 
 Spirv resampling_shader(ResamplingStage stage) {
     switch (stage) {
-        case ResamplingStage::candidates:
-            return shader_binary("restir_candidates.rgen");
-        case ResamplingStage::temporal:
-            return shader_binary("restir_temporal.rgen");
-        case ResamplingStage::spatial:
-            return shader_binary("restir_spatial.rgen");
-        case ResamplingStage::shade:
-            break;
+    case ResamplingStage::candidates:
+        return shader_binary("restir_candidates.rgen");
+    case ResamplingStage::temporal:
+        return shader_binary("restir_temporal.rgen");
+    case ResamplingStage::spatial:
+        return shader_binary("restir_spatial.rgen");
+    case ResamplingStage::shade:
+        break;
     }
     return shader_binary("restir_shade.rgen");
 }

@@ -18,12 +18,12 @@ struct SceneMemory {
 /// Uploads every array that is not empty.
 SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed);
 
-/// Overwrites what moves (MOVING_BUFFERS) with that of another moment, where its revision is another. Throws Error where a count is another. Nothing that reads it may
-/// be in flight.
+/// Overwrites what moves (MOVING_BUFFERS) with that of another moment, where its revision is another. Throws Error
+/// where a count is another. Nothing that reads it may be in flight.
 void upload_moment(Uploader& uploader, const PackedScene& moment, SceneMemory& scene);
 
-/// The same scene under other settings: arrays of geometry and texels stay where their size is the same, all others are overwritten, or
-/// made anew where their size is another. Nothing that reads them may be in flight.
+/// The same scene under other settings: arrays of geometry and texels stay where their size is the same, all others are
+/// overwritten, or made anew where their size is another. Nothing that reads them may be in flight.
 void replace_scene(const Gpu& gpu, const PackedScene& packed, SceneMemory& scene);
 
 /// Bytes that upload_moment copies at most.

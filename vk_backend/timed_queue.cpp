@@ -10,7 +10,8 @@ TimedQueue::TimedQueue(const Gpu& gpu, Finished finished)
 
 TimedQueue::Slot TimedQueue::make_slot() const {
     return {.commands = CommandSlot(gpu_),
-            .queries = gpu_.device.createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = most_parts + 1}),
+            .queries =
+                gpu_.device.createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = most_parts + 1}),
             .work = 0,
             .labels = {},
             .submitted = {}};
@@ -69,10 +70,11 @@ void TimedQueue::finish(Slot& slot) {
     last_end_ = end;
     if (gpu_.tick_seconds > 0) {
         const auto stamps = static_cast<std::uint32_t>(slot.labels.size()) + 1;
-        const auto ticks = slot.queries
-                               .getResults<std::uint64_t>(0, stamps, stamps * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                          vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
-                               .second;
+        const auto ticks =
+            slot.queries
+                .getResults<std::uint64_t>(0, stamps, stamps * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                           vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
+                .second;
         const auto between = [&](std::size_t first, std::size_t last) {
             return static_cast<double>((ticks[last] - ticks[first]) & gpu_.tick_mask) * gpu_.tick_seconds;
         };

@@ -55,7 +55,8 @@ void check_moment(const Gpu& gpu, const PackedScene& moment, const BottomLevels&
                     " instances where the moment before had " + std::to_string(before));
     }
     if (const std::optional<std::size_t> moved = first_moved(moment, bottom)) {
-        throw Error("Vulkan device " + gpu.name + ": instance " + std::to_string(*moved) + " has moved, which no animation moves");
+        throw Error("Vulkan device " + gpu.name + ": instance " + std::to_string(*moved) +
+                    " has moved, which no animation moves");
     }
 }
 
@@ -110,9 +111,12 @@ void build(const Gpu& gpu, const TopLevel& top, const Buffer& instances, const B
 }  // namespace
 
 std::optional<std::size_t> first_moved(const PackedScene& packed, const BottomLevels& bottom) {
-    const auto place = [](const shared::Instance& instance) { return std::tie(instance.row_0, instance.row_1, instance.row_2); };
+    const auto place = [](const shared::Instance& instance) {
+        return std::tie(instance.row_0, instance.row_1, instance.row_2);
+    };
     for (std::size_t i = 0; i < bottom.groups.grouped.size(); ++i) {
-        if (is_grouped(bottom.groups, i) && (!is_shown(packed, i) || place(packed.instances[i]) != place(bottom.standing[i]))) {
+        if (is_grouped(bottom.groups, i) &&
+            (!is_shown(packed, i) || place(packed.instances[i]) != place(bottom.standing[i]))) {
             return i;
         }
     }

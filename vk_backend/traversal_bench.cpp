@@ -60,8 +60,8 @@ std::uint64_t count_rays(const Gpu& gpu, const RayMemory& memory) {
     return std::uint64_t{counters.closest} + counters.any;
 }
 
-// One pipeline over one block or list of rays, cut into dispatches, in the device's seconds. What is learned of the pipeline's speed
-// lasts from run to run, so that only the first is cut small.
+// One pipeline over one block or list of rays, cut into dispatches, in the device's seconds. What is learned of the
+// pipeline's speed lasts from run to run, so that only the first is cut small.
 struct Runner {
     const Gpu& gpu;
     const PipelineLayout& layout;

@@ -11,7 +11,8 @@
 
 namespace diptych {
 
-/// Runs `work`; a failing Vulkan call in it becomes an Error that says what was being done, DeviceLost where the device is lost.
+/// Runs `work`; a failing Vulkan call in it becomes an Error that says what was being done, DeviceLost where the device
+/// is lost.
 template <typename Work>
 auto in_context(const std::string& doing, Work&& work) {
     try {

@@ -60,7 +60,8 @@ struct ViewState {
     bool interacting = false;  // changes keep coming (a drag, a key held, a slider held): previews, not full pictures
     double frames_per_second = 60;
     bool paused = false;  // no samples are taken: minimised
-    bool keeps_hidden = false;  // panels that are not shown follow the state too, without samples: paths are replayed on both
+    bool keeps_hidden =
+        false;  // panels that are not shown follow the state too, without samples: paths are replayed on both
 };
 
 /// What a worker is given: the newest counts, those before are forgotten.

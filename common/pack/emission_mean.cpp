@@ -16,10 +16,10 @@ struct EmissionKernel {
     bool feature(uint bit) const { return (packed.features & bit) != 0; }
     uint features() const { return packed.features; }
 
-#define DEFINE_LOAD(Type, name)                 \
-    const Type& load_##name(uint index) const { \
-        assert(index < packed.name.size());     \
-        return packed.name[index];              \
+#define DEFINE_LOAD(Type, name)                                                                                        \
+    const Type& load_##name(uint index) const {                                                                        \
+        assert(index < packed.name.size());                                                                            \
+        return packed.name[index];                                                                                     \
     }
     SCENE_BUFFERS(DEFINE_LOAD)
 #undef DEFINE_LOAD

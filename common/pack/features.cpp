@@ -15,7 +15,9 @@ std::array<const TextureSlot*, 6> slots_of(const Material& m) {
 }
 
 /// Whether a microfacet lobe has any weight; textures only scale these factors.
-bool reflects_specularly(const Material& m) { return !m.unlit && (m.specular > 0 || m.metallic > 0); }
+bool reflects_specularly(const Material& m) {
+    return !m.unlit && (m.specular > 0 || m.metallic > 0);
+}
 
 std::uint32_t material_features(const Material& m, BrdfModel model) {
     std::uint32_t bits = 0;
@@ -101,9 +103,9 @@ std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings
 
 std::vector<std::string> feature_names(std::uint32_t features) {
     std::vector<std::string> names;
-#define ADD_NAME(name, constant, bit)           \
-    if ((features & shared::constant) != 0) {   \
-        names.emplace_back(name);               \
+#define ADD_NAME(name, constant, bit)                                                                                  \
+    if ((features & shared::constant) != 0) {                                                                          \
+        names.emplace_back(name);                                                                                      \
     }
     FEATURE_LIST(ADD_NAME)
 #undef ADD_NAME

@@ -9,12 +9,16 @@
 namespace diptych {
 namespace {
 
-double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+double luminance(const glm::dvec3& c) {
+    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
 
-float largest(const glm::vec3& c) { return std::max({c.x, c.y, c.z}); }
+float largest(const glm::vec3& c) {
+    return std::max({c.x, c.y, c.z});
+}
 
-/// Mean over one texel's area of what bilinear filtering makes of the map: the tent over the texel integrates to (1, 6, 1)/8 each
-/// way. So a black texel beside a bright one keeps a probability.
+/// Mean over one texel's area of what bilinear filtering makes of the map: the tent over the texel integrates to (1, 6,
+/// 1)/8 each way. So a black texel beside a bright one keeps a probability.
 double filtered_luminance(const Environment& e, const glm::vec3& tint, int x, int y) {
     constexpr std::array<double, 3> tent = {0.125, 0.75, 0.125};
     double sum = 0;
@@ -22,8 +26,8 @@ double filtered_luminance(const Environment& e, const glm::vec3& tint, int x, in
         for (int i = -1; i <= 1; ++i) {
             const int column = (x + i + e.width) % e.width;
             const int row = std::clamp(y + j, 0, e.height - 1);
-            const auto texel = static_cast<std::size_t>(row) * static_cast<std::size_t>(e.width) +
-                               static_cast<std::size_t>(column);
+            const auto texel =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(e.width) + static_cast<std::size_t>(column);
             const double weight = tent[static_cast<std::size_t>(i + 1)] * tent[static_cast<std::size_t>(j + 1)];
             sum += weight * luminance(glm::dvec3(e.texels[texel]) * glm::dvec3(tint));
         }

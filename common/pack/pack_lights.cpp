@@ -12,10 +12,13 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Share of picks that goes to every light alike, so that no light which outshines its power where it stands is starved.
+/// Share of picks that goes to every light alike, so that no light which outshines its power where it stands is
+/// starved.
 constexpr double defensive_share = 0.05;
 
-double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+double luminance(const glm::dvec3& c) {
+    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
 
 glm::dvec3 world_position(const shared::Instance& i, const glm::vec3& p) {
     const glm::dvec4 q(p, 1);
@@ -63,8 +66,8 @@ void place_geometry(PackedScene& packed, std::size_t instance_index, std::uint32
     const bool unlit = (material.flags & shared::MATERIAL_UNLIT) != 0;
     const std::uint32_t slot = unlit ? material.base_color_slot : material.emission_slot;
     const std::uint32_t alpha = shared::MATERIAL_ALPHA_MASK | shared::MATERIAL_ALPHA_BLEND;
-    const bool varies = slot != shared::NONE || (material.flags & alpha) != 0 ||
-                        (unlit && geometry.first_color != shared::NONE);
+    const bool varies =
+        slot != shared::NONE || (material.flags & alpha) != 0 || (unlit && geometry.first_color != shared::NONE);
     const bool two_sided = (material.flags & shared::MATERIAL_DOUBLE_SIDED) != 0;
     const EmissionMean emission(packed);
     for (std::uint32_t t = 0; t < packed.geometry_extents[geometry_index].triangle_count; ++t) {
@@ -149,20 +152,19 @@ void place_punctual_lights(const Scene& scene, PackedScene& packed) {
         out.intensity = light.intensity;
         const double strength = luminance(glm::dvec3(light.intensity));
         switch (light.type) {
-            case PunctualType::point:
-                out.type = shared::PUNCTUAL_POINT;
-                powers.push_back(4 * pi * strength);
-                break;
-            case PunctualType::spot:
-                out.type = shared::PUNCTUAL_SPOT;
-                pack_spot_cone(light, out);
-                powers.push_back(2 * pi * strength *
-                                 (1 - 0.5 * (std::cos(light.inner_cone) + std::cos(light.outer_cone))));
-                break;
-            case PunctualType::directional:
-                out.type = shared::PUNCTUAL_DIRECTIONAL;
-                powers.push_back(pi * packed.radius * packed.radius * strength);
-                break;
+        case PunctualType::point:
+            out.type = shared::PUNCTUAL_POINT;
+            powers.push_back(4 * pi * strength);
+            break;
+        case PunctualType::spot:
+            out.type = shared::PUNCTUAL_SPOT;
+            pack_spot_cone(light, out);
+            powers.push_back(2 * pi * strength * (1 - 0.5 * (std::cos(light.inner_cone) + std::cos(light.outer_cone))));
+            break;
+        case PunctualType::directional:
+            out.type = shared::PUNCTUAL_DIRECTIONAL;
+            powers.push_back(pi * packed.radius * packed.radius * strength);
+            break;
         }
         packed.punctual_lights.push_back(out);
     }

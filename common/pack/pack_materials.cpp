@@ -11,9 +11,12 @@ namespace {
 
 std::uint32_t wrap_bits(Wrap wrap) {
     switch (wrap) {
-        case Wrap::repeat: return shared::WRAP_REPEAT;
-        case Wrap::clamp: return shared::WRAP_CLAMP;
-        case Wrap::mirror: return shared::WRAP_MIRROR;
+    case Wrap::repeat:
+        return shared::WRAP_REPEAT;
+    case Wrap::clamp:
+        return shared::WRAP_CLAMP;
+    case Wrap::mirror:
+        return shared::WRAP_MIRROR;
     }
     return shared::WRAP_REPEAT;
 }
@@ -66,8 +69,8 @@ private:
 std::uint32_t material_flags(const Material& m) {
     return (m.alpha_mode == AlphaMode::mask ? shared::MATERIAL_ALPHA_MASK : 0U) |
            (m.alpha_mode == AlphaMode::blend ? shared::MATERIAL_ALPHA_BLEND : 0U) |
-           (m.double_sided || m.unlit ? shared::MATERIAL_DOUBLE_SIDED : 0U) |
-           (m.unlit ? shared::MATERIAL_UNLIT : 0U) | (emits(m) ? shared::MATERIAL_EMISSIVE : 0U);
+           (m.double_sided || m.unlit ? shared::MATERIAL_DOUBLE_SIDED : 0U) | (m.unlit ? shared::MATERIAL_UNLIT : 0U) |
+           (emits(m) ? shared::MATERIAL_EMISSIVE : 0U);
 }
 
 }  // namespace

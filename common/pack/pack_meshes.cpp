@@ -18,8 +18,8 @@ std::uint32_t append(std::vector<T>& buffer, const std::vector<T>& values, bool 
     return first;
 }
 
-/// Where a mesh's vertices lie, if that is so far from their own origin that its triangles would lose digits there; else 0. Differences
-/// of such vertices are exact.
+/// Where a mesh's vertices lie, if that is so far from their own origin that its triangles would lose digits there;
+/// else 0. Differences of such vertices are exact.
 glm::dvec3 center_of(const Mesh& mesh) {
     glm::dvec3 low(1e300);
     glm::dvec3 high(-1e300);
@@ -76,7 +76,8 @@ void pack_meshes(const Scene& scene, PackedScene& packed) {
     }
 }
 
-bool place_instance(const Instance& instance, const glm::dvec3& origin, const glm::dvec3& center, shared::Instance& out) {
+bool place_instance(const Instance& instance, const glm::dvec3& origin, const glm::dvec3& center,
+                    shared::Instance& out) {
     const glm::dmat4& m = instance.object_to_world;
     const glm::dmat3 linear(m);
     const glm::dvec3 moved = glm::dvec3(m[3]) - origin + linear * center;
@@ -99,7 +100,8 @@ void pack_instances(const Scene& scene, PackedScene& packed) {
             continue;
         }
         shared::Instance out{};
-        const bool shown = place_instance(instance, packed.origin, packed.mesh_centers[static_cast<std::size_t>(instance.mesh)], out);
+        const bool shown =
+            place_instance(instance, packed.origin, packed.mesh_centers[static_cast<std::size_t>(instance.mesh)], out);
         if (!shown && instance.node == none) {
             packed.warnings.push_back(scene.name + ": instance \"" + instance.name +
                                       "\": its transform flattens it to nothing; left out");

@@ -40,8 +40,8 @@ std::vector<bool> move_instances(const Scene& scene, PackedScene& packed) {
         shared::Instance next = packed.instances[i];
         const bool shown = place_instance(scene.instances[packed.scene_instances[i]], packed.origin,
                                           packed.mesh_centers[packed.instance_meshes[i]], next);
-        changed[i] = std::memcmp(&next, &packed.instances[i], sizeof next) != 0 ||
-                     shown != (packed.instance_shown[i] != 0);
+        changed[i] =
+            std::memcmp(&next, &packed.instances[i], sizeof next) != 0 || shown != (packed.instance_shown[i] != 0);
         packed.instances[i] = next;
         packed.instance_shown[i] = shown ? 1 : 0;
     }
@@ -104,8 +104,8 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     }
     const double environment_luminance = packed.environment_luminance;
     place_environment(scene, packed);
-    weigh = weigh || environment_luminance != packed.environment_luminance ||
-            !same_lights(before, packed.punctual_lights);
+    weigh =
+        weigh || environment_luminance != packed.environment_luminance || !same_lights(before, packed.punctual_lights);
     if (weigh) {
         weigh_lights(packed);
     }

@@ -15,7 +15,8 @@ void pack_meshes(const Scene& scene, PackedScene& packed);
 void pack_instances(const Scene& scene, PackedScene& packed);
 
 /// Transform and orientation alone, of a mesh moved by -center. False where there is no inverse.
-bool place_instance(const Instance& instance, const glm::dvec3& origin, const glm::dvec3& center, shared::Instance& out);
+bool place_instance(const Instance& instance, const glm::dvec3& origin, const glm::dvec3& center,
+                    shared::Instance& out);
 
 /// The camera of the settings, moved by -origin; the whole image plane has the aspect of the film.
 void pack_camera(const Scene& scene, const RenderSettings& settings, PackedScene& packed);

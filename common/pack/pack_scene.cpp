@@ -134,7 +134,8 @@ void forget_previous(PackedScene& packed) {
 
 bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
     check_atlas(settings);
-    constexpr std::uint32_t of_arrays = shared::FEATURE_TEXTURES | shared::FEATURE_NORMAL_MAPS | shared::FEATURE_SECOND_UV;
+    constexpr std::uint32_t of_arrays =
+        shared::FEATURE_TEXTURES | shared::FEATURE_NORMAL_MAPS | shared::FEATURE_SECOND_UV;
     const std::uint32_t features = needed_features(scene, settings);
     const bool lays_out_lights = settings.integrator != Integrator::brdf;
     if (((features ^ packed.features) & of_arrays) != 0 ||

@@ -46,24 +46,25 @@ struct PackedScene : shared::SceneBuffers {
     std::vector<MeshRange> meshes;
     std::vector<GeometryExtent> geometry_extents;  // parallel to geometries
     std::vector<std::uint32_t> instance_meshes;    // parallel to instances: index into meshes
-    std::vector<std::uint8_t> instance_shown;      // parallel to instances: 0 where no ray may hit it, flat as it is just now
-    std::vector<std::uint8_t> instance_moves;      // parallel to instances: 0 where it stands still at every moment
+    std::vector<std::uint8_t>
+        instance_shown;  // parallel to instances: 0 where no ray may hit it, flat as it is just now
+    std::vector<std::uint8_t> instance_moves;  // parallel to instances: 0 where it stands still at every moment
     shared::RenderConstants constants{};
     std::vector<std::string> warnings;  // one line each: what was left out because it cannot be rendered
-    std::uint32_t features = 0;         // FEATURE_… bits that the scene and the settings need, or all of them if generic
-    bool keeps_previous = false;        // acceleration structures of the moment before stay, for settings.moves
+    std::uint32_t features = 0;   // FEATURE_… bits that the scene and the settings need, or all of them if generic
+    bool keeps_previous = false;  // acceleration structures of the moment before stay, for settings.moves
 
     // For pack_moment alone.
-    glm::dvec3 origin{0};                         // world space of the file minus this is ours
-    double radius = 1;                            // of the scene as first packed, for picking probabilities
-    double environment_luminance = 0;             // mean over the sphere
-    double environment_mean = 0;                  // the same where the largest component of its scale is 1
-    glm::vec3 environment_tint{0};                // its scale over the largest component; 0 where that is 0
-    std::vector<glm::dvec3> mesh_centers;         // parallel to meshes: what was taken off their vertices
-    std::vector<std::uint32_t> scene_instances;   // parallel to instances: index into Scene::instances
-    std::vector<double> emitter_means;            // parallel to emissive_triangles: mean luminance of what they emit
-    std::vector<double> light_powers;             // what light_table was built from
-    bool moves = false;                           // light_table keeps its size even where all is dark
+    glm::dvec3 origin{0};                        // world space of the file minus this is ours
+    double radius = 1;                           // of the scene as first packed, for picking probabilities
+    double environment_luminance = 0;            // mean over the sphere
+    double environment_mean = 0;                 // the same where the largest component of its scale is 1
+    glm::vec3 environment_tint{0};               // its scale over the largest component; 0 where that is 0
+    std::vector<glm::dvec3> mesh_centers;        // parallel to meshes: what was taken off their vertices
+    std::vector<std::uint32_t> scene_instances;  // parallel to instances: index into Scene::instances
+    std::vector<double> emitter_means;           // parallel to emissive_triangles: mean luminance of what they emit
+    std::vector<double> light_powers;            // what light_table was built from
+    bool moves = false;                          // light_table keeps its size even where all is dark
 };
 
 /// Whether rays may hit an instance; one that was added by hand always shows.
@@ -84,18 +85,18 @@ std::uint64_t buffer_bytes(const PackedScene& packed);
 /// geometry's first vertex. Throws Error where the scene holds more than 32-bit indices can name.
 PackedScene pack_scene(const Scene& scene, const RenderSettings& settings);
 
-/// Overwrites what moves (MOVING_BUFFERS, the camera, rotation and scale of the environment) with the same scene at another moment; nothing
-/// else is touched, and every index and count stays, light ids included. Origin and radius are those of pack_scene, so
-/// that a moment depends on no other. Keeps constants.seed. Throws Error where the scene is another one, an environment that was dark or
-/// of another tint included.
+/// Overwrites what moves (MOVING_BUFFERS, the camera, rotation and scale of the environment) with the same scene at
+/// another moment; nothing else is touched, and every index and count stays, light ids included. Origin and radius are
+/// those of pack_scene, so that a moment depends on no other. Keeps constants.seed. Throws Error where the scene is
+/// another one, an environment that was dark or of another tint included.
 void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 /// A moment in which nothing but the camera is another: pack_moment without a look at the rest.
 void pack_view(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
-/// Goes on with other settings where no array's size or order depends on them: size, depth, sampler, weights, seed, most integrators. The
-/// scene may stand at another moment, which becomes the moment before as well. As pack_scene of it would have it, but for
-/// origin and radius, which stay. False, and nothing is done, where pack_scene must run anew.
+/// Goes on with other settings where no array's size or order depends on them: size, depth, sampler, weights, seed,
+/// most integrators. The scene may stand at another moment, which becomes the moment before as well. As pack_scene of
+/// it would have it, but for origin and radius, which stay. False, and nothing is done, where pack_scene must run anew.
 bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 }  // namespace diptych

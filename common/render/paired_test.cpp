@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace diptych {
 namespace {
 
@@ -37,7 +36,9 @@ double poisson_upper(std::uint64_t count, double mean) {
     return std::min(sum, 1.0);
 }
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// Keeps the list sorted and short.
 template <class Before>
@@ -148,8 +149,8 @@ PairedReport PairedTest::report() const {
         const double error = std::hypot(report.divergent_error[c], floor);
         report.divergent_z[c] = error > 0 ? report.divergent_sum[c] / error : 0;
     }
-    const double z = std::max({std::abs(report.divergent_z[0]), std::abs(report.divergent_z[1]),
-                               std::abs(report.divergent_z[2])});
+    const double z =
+        std::max({std::abs(report.divergent_z[0]), std::abs(report.divergent_z[1]), std::abs(report.divergent_z[2])});
     if (z > limits_.z) {
         fail("paths that differ lean to one side");
     }

@@ -17,8 +17,8 @@ constexpr std::uint32_t largest_batch = 4096;
 constexpr std::uint32_t largest_growth = 4;  // from batch to batch: the first ones are too short to measure well
 constexpr double look_interval = 1;
 constexpr double look_share = 0.02;
-// Of a time limit, left to the last batch. Those before it take half of what is left: then a machine that suddenly has half its speed is
-// noticed in time.
+// Of a time limit, left to the last batch. Those before it take half of what is left: then a machine that suddenly has
+// half its speed is noticed in time.
 constexpr double last_share = 0.02;
 
 double steady_seconds() {

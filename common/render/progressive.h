@@ -44,12 +44,13 @@ struct ProgressiveResult {
     bool target_met = false;  // relmse: its estimate is at or below it
 };
 
-/// Renders in batches of about a quarter of a second, shorter towards the end of a time, sized by the speed of the one before, until the
-/// target is met or `cancel` is set. The film is looked at between batches, at most once a second and for at most a fiftieth of the
-/// time, and only where there is a progress hook. Whether the error's target is met is looked at after 16 samples and then where the
-/// estimate, which falls as 1/N, is to meet it, at twice the samples at the latest; these counts depend on the samples alone, so the same
-/// seed stops at the same count on a machine of any speed. Throws Error where the film keeps no moments for it. A batch that `cancel` cut short leaves extra samples on some pixels;
-/// they do not count in `spp`.
+/// Renders in batches of about a quarter of a second, shorter towards the end of a time, sized by the speed of the one
+/// before, until the target is met or `cancel` is set. The film is looked at between batches, at most once a second and
+/// for at most a fiftieth of the time, and only where there is a progress hook. Whether the error's target is met is
+/// looked at after 16 samples and then where the estimate, which falls as 1/N, is to meet it, at twice the samples at
+/// the latest; these counts depend on the samples alone, so the same seed stops at the same count on a machine of any
+/// speed. Throws Error where the film keeps no moments for it. A batch that `cancel` cut short leaves extra samples on
+/// some pixels; they do not count in `spp`.
 ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarget& target,
                                        const std::atomic<bool>& cancel, const ProgressiveHooks& hooks = {});
 

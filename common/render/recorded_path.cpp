@@ -81,8 +81,7 @@ double record_difference(RecordField field, const PathVertexRecord& a, const Pat
     case RecordField::barycentrics:
         return static_cast<double>(glm::distance(a.barycentrics, b.barycentrics));
     case RecordField::position:
-        return distance(a.position, b.position) /
-               std::max(static_cast<double>(a.t * glm::length(a.direction)), 1e-30);
+        return distance(a.position, b.position) / std::max(static_cast<double>(a.t * glm::length(a.direction)), 1e-30);
     case RecordField::emission_weight:
         return number(a.emission_weight, b.emission_weight);
     case RecordField::emission:

@@ -46,8 +46,8 @@ struct Parting {
     double difference = 0;  // as record_difference gives it; 1 for decisions
 };
 
-/// How far a field of two vertices differs: of numbers |a-b| over the larger of |a| and |b|, each beyond 1e-6 (positions: over the ray's
-/// length; barycentrics: over 1), of decisions 0 or 1.
+/// How far a field of two vertices differs: of numbers |a-b| over the larger of |a| and |b|, each beyond 1e-6
+/// (positions: over the ray's length; barycentrics: over 1), of decisions 0 or 1.
 double record_difference(RecordField field, const shared::PathVertexRecord& a, const shared::PathVertexRecord& b);
 
 /// |a-b| over the larger of both, of the worst channel; what differs by no more than 1e-6 does not.

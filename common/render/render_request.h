@@ -13,14 +13,14 @@
 namespace diptych {
 
 struct RenderRequest {
-    std::string scene;   // file
+    std::string scene;                            // file
     std::vector<std::string> ignored_extensions;  // required by the file, lacking here, and done without
-    std::string output;  // file
-    std::string backend = "cpu";       // cpu, vulkan or oracle
-    std::string oracle_mode = "mis";   // oracle: mis, bsdf, hemisphere or area
-    std::string device;       // vulkan: index or name; empty is the best
-    std::string camera;       // name or index; empty is the first
-    std::string environment;  // "R,G,B" or a file; empty is the scene's own
+    std::string output;                           // file
+    std::string backend = "cpu";                  // cpu, vulkan or oracle
+    std::string oracle_mode = "mis";              // oracle: mis, bsdf, hemisphere or area
+    std::string device;                           // vulkan: index or name; empty is the best
+    std::string camera;                           // name or index; empty is the first
+    std::string environment;                      // "R,G,B" or a file; empty is the scene's own
     double environment_scale = 1;
     double environment_rotation = 0;       // degrees
     std::optional<double> lens_radius;     // metres
@@ -32,19 +32,21 @@ struct RenderRequest {
     int threads = 0;  // cpu, oracle; 0 is one a core
     bool validation = false;
     bool group_instances = true;  // vulkan; off to measure what it gains
-    std::uint32_t spp = 64;  // 0 where `seconds` is the limit
+    std::uint32_t spp = 64;       // 0 where `seconds` is the limit
     double seconds = 0;
-    double target_error = 0;  // relMSE at which to stop, as the film's standard errors have it; 0 is none
+    double target_error = 0;   // relMSE at which to stop, as the film's standard errors have it; 0 is none
     std::uint32_t frames = 0;  // of a sequence; 0 is one picture of the scene at rest
     std::uint32_t frame = 0;   // which of them this is, for what a picture says of itself
     double fps = 24;
-    double start = 0;  // seconds, of the first frame, kept or not
+    double start = 0;           // seconds, of the first frame, kept or not
     std::uint32_t warm_up = 0;  // frames before the first that is kept; of one picture at rest: samples
-    double orbit = 0;  // degrees a frame that the camera turns: degrees * fps * time in all
+    double orbit = 0;           // degrees a frame that the camera turns: degrees * fps * time in all
     RenderSettings settings;
 };
 
 /// Seconds of the scene's animations at which the request's first kept frame stands.
-inline double shown_at(const RenderRequest& request) { return request.start + request.warm_up / request.fps; }
+inline double shown_at(const RenderRequest& request) {
+    return request.start + request.warm_up / request.fps;
+}
 
 }  // namespace diptych

@@ -20,9 +20,9 @@ struct PackedScene;
 
 /// Seconds spent before the first sample, and bytes held.
 struct RendererCosts {
-    double build_seconds = 0;    // acceleration structures and uploads
-    double compile_seconds = 0;  // pipelines
-    std::uint64_t bytes = 0;     // buffers, acceleration structures, film
+    double build_seconds = 0;              // acceleration structures and uploads
+    double compile_seconds = 0;            // pipelines
+    std::uint64_t bytes = 0;               // buffers, acceleration structures, film
     std::uint64_t acceleration_bytes = 0;  // of these, the structures
 };
 
@@ -55,29 +55,31 @@ public:
     virtual std::string device() const = 0;
     virtual RendererCosts costs() const = 0;
 
-    /// Adds samples first .. first+count-1 to every pixel. Stops early, between slices of at most about 200 ms, once `cancel` is
-    /// set; the film is valid then too, since every pixel counts its own samples.
+    /// Adds samples first .. first+count-1 to every pixel. Stops early, between slices of at most about 200 ms, once
+    /// `cancel` is set; the film is valid then too, since every pixel counts its own samples.
     virtual void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) = 0;
 
-    /// Empties the film and goes on with another seed: what follows has the bits of a new renderer with that seed, without building
-    /// anything anew. Time and costs go on counting.
+    /// Empties the film and goes on with another seed: what follows has the bits of a new renderer with that seed,
+    /// without building anything anew. Time and costs go on counting.
     virtual void restart(std::uint32_t seed) = 0;
 
-    /// Empties the film for the next picture of a chain: the seed stays, and so does what restir keeps from frame to frame, as long as the
-    /// sample indices go on too.
+    /// Empties the film for the next picture of a chain: the seed stays, and so does what restir keeps from frame to
+    /// frame, as long as the sample indices go on too.
     virtual void clear_film() { throw Error("--backend " + backend() + ": begins every picture anew"); }
 
-    /// Goes on with another moment of its scene: `moment` is what it was made from, after pack_moment, or a copy with the same meshes.
-    /// Takes only what moves. Film and seed stay; restart begins a new picture. The CPU panel refers to `moment` from then on, and to
-    /// the meshes of the first. Throws Error where the counts differ, and
-    /// may where an instance has moved that PackedScene::instance_moves said would not.
+    /// Goes on with another moment of its scene: `moment` is what it was made from, after pack_moment, or a copy with
+    /// the same meshes. Takes only what moves. Film and seed stay; restart begins a new picture. The CPU panel refers
+    /// to `moment` from then on, and to the meshes of the first. Throws Error where the counts differ, and may where an
+    /// instance has moved that PackedScene::instance_moves said would not.
     virtual void move_to(const PackedScene& moment) = 0;
 
-    /// Goes on with other settings of the same scene: `packed` is pack_scene of it under them. The film begins anew with packed.constants.seed
-    /// and no history; what follows has the bits of a new renderer. What the settings do not touch stays: geometry, acceleration structures,
-    /// pipelines met before. The CPU panel refers to `packed` from then on, and to the vertices and triangles of the first pack. Throws Error
-    /// where the backend cannot.
-    virtual void reconfigure(const PackedScene&) { throw Error("--backend " + backend() + ": cannot go on with other settings"); }
+    /// Goes on with other settings of the same scene: `packed` is pack_scene of it under them. The film begins anew
+    /// with packed.constants.seed and no history; what follows has the bits of a new renderer. What the settings do not
+    /// touch stays: geometry, acceleration structures, pipelines met before. The CPU panel refers to `packed` from then
+    /// on, and to the vertices and triangles of the first pack. Throws Error where the backend cannot.
+    virtual void reconfigure(const PackedScene&) {
+        throw Error("--backend " + backend() + ": cannot go on with other settings");
+    }
 
     /// Seconds the device itself worked on `render` calls so far: timestamps on a GPU, wall clock on the CPU.
     virtual double device_seconds() const = 0;
@@ -94,9 +96,10 @@ public:
     /// Measures `samples` samples a pixel, leaving the film alone.
     virtual TraversalBench bench_traversal(std::uint32_t samples) = 0;
 
-    /// Traces the paths listed, leaving the film alone, and returns all that each of them did, or a summary for the many; under the film's
-    /// seed, or another that is given. Throws Error where the backend cannot.
-    virtual std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery>, std::optional<std::uint32_t> = {}) {
+    /// Traces the paths listed, leaving the film alone, and returns all that each of them did, or a summary for the
+    /// many; under the film's seed, or another that is given. Throws Error where the backend cannot.
+    virtual std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery>,
+                                                   std::optional<std::uint32_t> = {}) {
         refuse_paths();
     }
     virtual std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery>) { refuse_paths(); }

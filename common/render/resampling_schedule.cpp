@@ -5,13 +5,13 @@ namespace diptych {
 bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants) {
     const bool reuses = constants.integrator == shared::INTEGRATOR_RESTIR;
     switch (stage) {
-        case ResamplingStage::temporal:
-            return reuses && constants.resampling.temporal != 0;
-        case ResamplingStage::spatial:
-            return reuses && constants.resampling.spatial_passes > 0;
-        case ResamplingStage::candidates:
-        case ResamplingStage::shade:
-            break;
+    case ResamplingStage::temporal:
+        return reuses && constants.resampling.temporal != 0;
+    case ResamplingStage::spatial:
+        return reuses && constants.resampling.spatial_passes > 0;
+    case ResamplingStage::candidates:
+    case ResamplingStage::shade:
+        break;
     }
     return constants.integrator >= shared::INTEGRATOR_RIS;
 }
@@ -28,7 +28,8 @@ std::vector<std::string> pass_names(const shared::RenderConstants& constants) {
     if (needs_stage(ResamplingStage::temporal, constants)) {
         names.emplace_back("temporal");
     }
-    for (std::uint32_t i = 0; needs_stage(ResamplingStage::spatial, constants) && i < constants.resampling.spatial_passes; ++i) {
+    for (std::uint32_t i = 0;
+         needs_stage(ResamplingStage::spatial, constants) && i < constants.resampling.spatial_passes; ++i) {
         names.push_back("spatial " + std::to_string(i + 1));
     }
     names.emplace_back("shade");
@@ -42,7 +43,11 @@ ResamplingSets resampling_sets(const shared::RenderConstants& constants) {
     const bool reuses = constants.integrator == shared::INTEGRATOR_RESTIR;
     const bool temporal = needs_stage(ResamplingStage::temporal, constants);
     const bool spatial = needs_stage(ResamplingStage::spatial, constants);
-    return {.first_vertices = 1, .reservoirs = temporal || spatial ? 2U : 1U, .surfaces = temporal ? 2U : reuses ? 1U : 0U};
+    return {.first_vertices = 1,
+            .reservoirs = temporal || spatial ? 2U : 1U,
+            .surfaces = temporal ? 2U
+                        : reuses ? 1U
+                                 : 0U};
 }
 
 std::uint32_t resampling_bytes(const ResamplingSets& sets) {

@@ -21,14 +21,15 @@ struct ResamplingStep {
 /// The set of reservoirs that holds what the step left.
 std::uint32_t resulting_set(const ResamplingStep& step);
 
-/// The passes of a frame, in order: "candidates", "temporal", "spatial 1", ..., "shade"; none for integrators that do not resample.
+/// The passes of a frame, in order: "candidates", "temporal", "spatial 1", ..., "shade"; none for integrators that do
+/// not resample.
 std::vector<std::string> pass_names(const shared::RenderConstants& constants);
 
 /// Whether any frame will run the stage; false for integrators that do not resample.
 bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants);
 
-/// Films of each kind that the settings need. Two sets of reservoirs serve any number of spatial passes: a frame's history is dead once
-/// its temporal pass is over, and its memory takes the first spatial pass's results.
+/// Films of each kind that the settings need. Two sets of reservoirs serve any number of spatial passes: a frame's
+/// history is dead once its temporal pass is over, and its memory takes the first spatial pass's results.
 struct ResamplingSets {
     std::uint32_t first_vertices = 0;
     std::uint32_t reservoirs = 0;

@@ -12,7 +12,9 @@ enum class MisHeuristic { power, balance };
 enum class ResamplingMis { pairwise, balance, one_over_z, biased_one_over_m };
 enum class ResamplingVisibility { shading, target, biased_initial, biased_final };
 
-inline bool resamples(Integrator integrator) { return integrator == Integrator::ris || integrator == Integrator::restir; }
+inline bool resamples(Integrator integrator) {
+    return integrator == Integrator::ris || integrator == Integrator::restir;
+}
 
 /// How `ris` and `restir` resample; see ResamplingConstants in shared_glsl_cpp/scene_types.h.
 struct ResamplingSettings {
@@ -21,7 +23,7 @@ struct ResamplingSettings {
     bool temporal = true;
     std::uint32_t spatial_passes = 1;
     std::uint32_t neighbors = 4;
-    float radius = 16;          // pixels
+    float radius = 16;  // pixels
     float confidence_cap = 20;
     ResamplingMis mis = ResamplingMis::pairwise;
     ResamplingVisibility visibility = ResamplingVisibility::shading;
@@ -34,19 +36,20 @@ struct RenderSettings {
     BrdfModel brdf = BrdfModel::ggx;
     SamplerKind sampler = SamplerKind::sobol;
     MisHeuristic mis = MisHeuristic::power;
-    std::uint32_t max_depth = 8;       // scattering events; 1 is emission plus direct light
+    std::uint32_t max_depth = 8;  // scattering events; 1 is emission plus direct light
     std::uint32_t seed = 0;
-    std::uint32_t sample_count = 64;   // samples a pixel that a Hammersley set is laid out for
-    int camera = 0;                    // index into the scene's cameras
-    bool standard_error = false;       // keep second moments
-    bool first_hit_layers = false;     // keep albedo, normal, depth
-    bool generic = false;              // leave nothing out: every feature on
-    bool moves = false;                // the scene has other moments, which reuse will look back to
-    std::uint32_t atlas_tile = 0;      // ris and restir: pixels of the side of isolated copies of the view; 0 is one view
+    std::uint32_t sample_count = 64;  // samples a pixel that a Hammersley set is laid out for
+    int camera = 0;                   // index into the scene's cameras
+    bool standard_error = false;      // keep second moments
+    bool first_hit_layers = false;    // keep albedo, normal, depth
+    bool generic = false;             // leave nothing out: every feature on
+    bool moves = false;               // the scene has other moments, which reuse will look back to
+    std::uint32_t atlas_tile = 0;  // ris and restir: pixels of the side of isolated copies of the view; 0 is one view
     ResamplingSettings resampling;
 };
 
-/// Whether frames reuse what those before them found, so that they go on from one another and their samples depend on one another.
+/// Whether frames reuse what those before them found, so that they go on from one another and their samples depend on
+/// one another.
 inline bool chains_frames(const RenderSettings& settings) {
     return settings.integrator == Integrator::restir && settings.resampling.temporal;
 }

@@ -14,9 +14,11 @@ struct Choice {
     T value;
 };
 
-constexpr Choice<Integrator> integrators[] = {
-    {"brdf", Integrator::brdf}, {"direct", Integrator::direct}, {"path", Integrator::path},
-    {"ris", Integrator::ris},   {"restir", Integrator::restir}};
+constexpr Choice<Integrator> integrators[] = {{"brdf", Integrator::brdf},
+                                              {"direct", Integrator::direct},
+                                              {"path", Integrator::path},
+                                              {"ris", Integrator::ris},
+                                              {"restir", Integrator::restir}};
 constexpr Choice<ResamplingMis> resampling_mis[] = {{"pairwise", ResamplingMis::pairwise},
                                                     {"balance", ResamplingMis::balance},
                                                     {"1-over-z", ResamplingMis::one_over_z},

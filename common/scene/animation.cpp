@@ -45,7 +45,8 @@ glm::dvec4 key_value(const Channel& channel, std::size_t key) {
 glm::dvec4 spline(const Channel& channel, std::size_t k, double t, double length) {
     const double t2 = t * t;
     const double t3 = t2 * t;
-    return (2 * t3 - 3 * t2 + 1) * group_at(channel, 3 * k + 1) + length * (t3 - 2 * t2 + t) * group_at(channel, 3 * k + 2) +
+    return (2 * t3 - 3 * t2 + 1) * group_at(channel, 3 * k + 1) +
+           length * (t3 - 2 * t2 + t) * group_at(channel, 3 * k + 2) +
            (3 * t2 - 2 * t3) * group_at(channel, 3 * k + 4) + length * (t3 - t2) * group_at(channel, 3 * k + 3);
 }
 

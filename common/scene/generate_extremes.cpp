@@ -1,5 +1,6 @@
-// Scenes at the extremes of what fp32 and real files bring: scales, distances, lights close and small, surfaces that overlap, broken
-// meshes, steep normals. Each is small and diffuse where it can be, so that a comparison with the oracle soon has power.
+// Scenes at the extremes of what fp32 and real files bring: scales, distances, lights close and small, surfaces that
+// overlap, broken meshes, steep normals. Each is small and diffuse where it can be, so that a comparison with the
+// oracle soon has power.
 #include "scene/generate_scenes.h"
 #include "scene/generate_shapes.h"
 
@@ -90,7 +91,8 @@ GeneratedScene generate_extreme_instances(const GenerateOptions&) {
     sheared[2].y = -0.7;
     add_instance(scene, "mirrored", mesh, translation(-0.5, 0.3, -0.5) * scaling(-1, 1, 1) * askew());
     add_instance(scene, "sheared", mesh, translation(0.3, 0.25, -0.6) * sheared);
-    add_instance(scene, "mirrored and sheared", mesh, translation(0.5, -0.1, -0.2) * scaling(1, -1, 1) * sheared * askew());
+    add_instance(scene, "mirrored and sheared", mesh,
+                 translation(0.5, -0.1, -0.2) * scaling(1, -1, 1) * sheared * askew());
     add_instance(scene, "flattened", mesh, translation(0, 0.4, -0.7) * askew() * scaling(1.5, 0.8, 1e-3));
     add_instance(scene, "stretched", mesh, translation(-0.75, 0, -0.1) * scaling(0.05, 3, 0.05));
     return out;
@@ -175,7 +177,8 @@ GeneratedScene generate_extreme_coplanar(const GenerateOptions&) {
     GeneratedScene out{furnished_room("coplanar", glm::dmat4(1), 0.7F), ""};
     Scene& scene = out.scene;
     const int white = 0;
-    // The floor twice more, the second in part; a block that stands in it, its bottom in the floor's plane; two that share a face.
+    // The floor twice more, the second in part; a block that stands in it, its bottom in the floor's plane; two that
+    // share a face.
     add_object(scene, "floor again", {level({0, -1, 0}, 1, true, white)});
     add_object(scene, "rug", {level({0.3F, -1, 0.3F}, 0.4F, true, white)});
     add_object(scene, "standing", {box({-0.9F, -1, -0.9F}, {-0.5F, -0.3F, -0.5F}, white, false)});
@@ -194,10 +197,12 @@ GeneratedScene generate_extreme_broken_mesh(const GenerateOptions&) {
         Primitive& broken = scene.meshes[material == lamp ? 1 : 0].primitives[0];
         const auto count = static_cast<std::uint32_t>(broken.positions.size());
         const glm::vec3 a = broken.positions[0], b = broken.positions[1];
-        // Two that repeat a vertex, one whose vertices lie on a line, one of a point, two with a vertex that is no number.
+        // Two that repeat a vertex, one whose vertices lie on a line, one of a point, two with a vertex that is no
+        // number.
         broken.positions.insert(broken.positions.end(), {b, 0.5F * (a + b), {nan, 0, 0}, {0, nan, 0}});
-        broken.triangles.insert(broken.triangles.end(), {{0, 1, 1}, {0, 1, count}, {0, 1, count + 1}, {0, 0, 0},
-                                                         {0, 1, count + 2}, {0, count + 3, 2}});
+        broken.triangles.insert(
+            broken.triangles.end(),
+            {{0, 1, 1}, {0, 1, count}, {0, 1, count + 1}, {0, 0, 0}, {0, 1, count + 2}, {0, count + 3, 2}});
     }
     return out;
 }
@@ -214,7 +219,8 @@ GeneratedScene generate_extreme_normal_map(const GenerateOptions&) {
         for (int x = 0; x < 8; ++x) {
             const double across = 0.9962, up = 0.0872;
             const bool right = x >= 4, low = y >= 4;
-            const double nx = right == low ? (right ? across : -across) : 0, ny = right == low ? 0 : (right ? across : -across);
+            const double nx = right == low ? (right ? across : -across) : 0,
+                         ny = right == low ? 0 : (right ? across : -across);
             for (const double c : {nx, ny, up})
                 image.rgba.push_back(std::uint8_t(std::lround(255 * (0.5 + 0.5 * c))));
             image.rgba.push_back(255);

@@ -101,10 +101,10 @@ std::optional<Target> node_target(Document& document, const Json& target, const 
         warn(document, object + ".target", "names no node; left out");
         return std::nullopt;
     }
-    const int node =
-        index_member(document, target, "node", document.model.nodes.size(), "nodes", object + ".target");
+    const int node = index_member(document, target, "node", document.model.nodes.size(), "nodes", object + ".target");
     if (!document.model.nodes[static_cast<std::size_t>(node)].matrix.empty()) {
-        fail(document, object + ".target", "nodes[" + std::to_string(node) + "] has a matrix, which cannot be animated");
+        fail(document, object + ".target",
+             "nodes[" + std::to_string(node) + "] has a matrix, which cannot be animated");
     }
     return Target{property, node};
 }
@@ -180,8 +180,8 @@ std::vector<float> read_values(const Document& document, int accessor, const Cha
 std::optional<Channel> read_channel(Document& document, const Json& animation, const Json& channel,
                                     const std::string& object) {
     const Json* samplers = member(animation, "samplers");
-    const int index = index_member(document, channel, "sampler", samplers != nullptr ? samplers->size() : 0, "samplers",
-                                   object);
+    const int index =
+        index_member(document, channel, "sampler", samplers != nullptr ? samplers->size() : 0, "samplers", object);
     const std::optional<Target> target = read_target(document, channel, object);
     if (!target) {
         return std::nullopt;
@@ -196,8 +196,8 @@ std::optional<Channel> read_channel(Document& document, const Json& animation, c
     out.property = target->property;
     out.target = target->index;
     out.interpolation = read_interpolation(document, sampler, name);
-    out.times = read_times(document, index_member(document, sampler, "input", accessors, "accessors", name),
-                           name + ".input");
+    out.times =
+        read_times(document, index_member(document, sampler, "input", accessors, "accessors", name), name + ".input");
     out.values = read_values(document, index_member(document, sampler, "output", accessors, "accessors", name), out,
                              name + ".output");
     return out;

@@ -201,7 +201,8 @@ void check_extensions(Document& document, const Json& root, const std::vector<st
     }
     for (const std::string& extension : ignored) {
         if (!contains(required, extension) || contains(supported_extensions, extension)) {
-            warn(document, "extensionsRequired", "there is no " + extension + " to ignore: it is not required, or supported");
+            warn(document, "extensionsRequired",
+                 "there is no " + extension + " to ignore: it is not required, or supported");
         }
     }
 }

@@ -37,8 +37,8 @@ const char* name_by_content(const Bytes& bytes) {
     return starts("RIFF") && starts("WEBP", 8) ? "image.webp" : nullptr;
 }
 
-/// One at a time: OpenImageIO reads colour profiles in `open`, and some of its versions (2.4) do so with data shared between threads,
-/// which now and then corrupted the heap where many images with profiles were decoded at once.
+/// One at a time: OpenImageIO reads colour profiles in `open`, and some of its versions (2.4) do so with data shared
+/// between threads, which now and then corrupted the heap where many images with profiles were decoded at once.
 std::unique_ptr<OIIO::ImageInput> open_image(const char* name, const OIIO::ImageSpec& config) {
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);

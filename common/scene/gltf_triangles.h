@@ -16,9 +16,9 @@ namespace diptych::gltf {
 std::vector<glm::uvec3> read_triangles(Document& document, const tinygltf::Primitive& primitive,
                                        std::size_t vertex_count, const std::string& object);
 
-/// Makes all attributes finite: triangles with a vertex whose position is not, and those without area, are dropped; normals and tangents become
-/// unit vectors, a useless normal that of the adjacent faces; other values fall back to their neutral ones; colours are
-/// clamped to [0, 1]. One warning for each kind of change, with its count.
+/// Makes all attributes finite: triangles with a vertex whose position is not, and those without area, are dropped;
+/// normals and tangents become unit vectors, a useless normal that of the adjacent faces; other values fall back to
+/// their neutral ones; colours are clamped to [0, 1]. One warning for each kind of change, with its count.
 void clean_primitive(Document& document, Primitive& primitive, const std::string& object);
 
 }  // namespace diptych::gltf

@@ -97,9 +97,8 @@ int add_attribute(Document& document, const std::vector<Vector>& values, bool wi
 
 int add_numbers(Document& document, const std::vector<float>& numbers, int components, bool with_bounds) {
     const std::string type = components == 1 ? "SCALAR" : "VEC" + std::to_string(components);
-    Json accessor = {{"componentType", int(type_float)},
-                     {"count", numbers.size() / std::size_t(components)},
-                     {"type", type}};
+    Json accessor = {
+        {"componentType", int(type_float)}, {"count", numbers.size() / std::size_t(components)}, {"type", type}};
     if (with_bounds) {
         const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
         accessor["min"] = Json::array({gltf::decimal(*low)});
@@ -291,9 +290,10 @@ std::string document_text(const Document& document, const Scene& scene, const st
         root_text += "\"nodes\":[" + document.root_nodes + "]}";
     out += ",\n\"scene\": 0,\n\"scenes\": [" + root_text + "]";
     const std::pair<const char*, const JsonList*> lists[] = {
-        {"animations", &document.animations}, {"nodes", &document.nodes},         {"cameras", &document.cameras},     {"meshes", &document.meshes},
-        {"materials", &document.materials}, {"textures", &document.textures},   {"samplers", &document.samplers},
-        {"images", &document.images},       {"accessors", &document.accessors}, {"bufferViews", &document.views}};
+        {"animations", &document.animations}, {"nodes", &document.nodes},         {"cameras", &document.cameras},
+        {"meshes", &document.meshes},         {"materials", &document.materials}, {"textures", &document.textures},
+        {"samplers", &document.samplers},     {"images", &document.images},       {"accessors", &document.accessors},
+        {"bufferViews", &document.views}};
     for (const auto& [name, list] : lists)
         if (list->size != 0)
             out += ",\n\"" + std::string(name) + "\": [" + list->text + "\n]";

@@ -1,8 +1,8 @@
 // The logical scene: what a file says, before anything is packed for a backend.
 //
-// Conventions are glTF 2.0's: right-handed, metres, +Y up; a camera and a light look along their local -Z; counter-clockwise is
-// the front; texture coordinates start at the upper left corner of an image. Transforms are double, so that a scene far from the
-// origin loses nothing before it is rebased.
+// Conventions are glTF 2.0's: right-handed, metres, +Y up; a camera and a light look along their local -Z;
+// counter-clockwise is the front; texture coordinates start at the upper left corner of an image. Transforms are
+// double, so that a scene far from the origin loses nothing before it is rebased.
 #pragma once
 
 #include <array>
@@ -41,7 +41,8 @@ struct Texture {
     Filter filter = Filter::linear;
 };
 
-/// Where a material reads a texture: the UV set and the affine map of KHR_texture_transform, (u', v') = (u_row, v_row)·(u, v, 1).
+/// Where a material reads a texture: the UV set and the affine map of KHR_texture_transform, (u', v') = (u_row,
+/// v_row)·(u, v, 1).
 struct TextureSlot {
     int texture = none;
     int uv_set = 0;  // 0 or 1
@@ -57,7 +58,8 @@ struct MovingEmission {
     float strength = 1;
 };
 
-/// glTF 2.0 metallic-roughness, with KHR_materials_ior, _specular, _emissive_strength and _unlit. Colours are linear Rec.709.
+/// glTF 2.0 metallic-roughness, with KHR_materials_ior, _specular, _emissive_strength and _unlit. Colours are linear
+/// Rec.709.
 struct Material {
     std::string name;
     glm::vec4 base_color{1};
@@ -70,22 +72,22 @@ struct Material {
     glm::vec3 specular_color{1};
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5F;
-    bool double_sided = false;  // also: emits from both sides
-    bool unlit = false;         // emits base_color, scatters nothing
-    TextureSlot base_color_texture;          // rgb sRGB, a linear
-    TextureSlot metallic_roughness_texture;  // g roughness, b metallic; linear
-    TextureSlot normal_texture;              // tangent space, +Y up; linear
-    TextureSlot emission_texture;            // sRGB
-    TextureSlot specular_texture;            // a; linear
-    TextureSlot specular_color_texture;      // rgb sRGB
+    bool double_sided = false;                        // also: emits from both sides
+    bool unlit = false;                               // emits base_color, scatters nothing
+    TextureSlot base_color_texture;                   // rgb sRGB, a linear
+    TextureSlot metallic_roughness_texture;           // g roughness, b metallic; linear
+    TextureSlot normal_texture;                       // tangent space, +Y up; linear
+    TextureSlot emission_texture;                     // sRGB
+    TextureSlot specular_texture;                     // a; linear
+    TextureSlot specular_color_texture;               // rgb sRGB
     std::optional<MovingEmission> moving_emission{};  // present: counts as emissive at every moment, dark ones included
 };
 
 /// Triangles of one material. Attribute arrays are either empty or as long as `positions`.
 struct Primitive {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  // empty: flat shading by the geometric normal
-    std::vector<glm::vec4> tangents; // w is the bitangent's sign; present only where the material has a normal map
+    std::vector<glm::vec3> normals;   // empty: flat shading by the geometric normal
+    std::vector<glm::vec4> tangents;  // w is the bitangent's sign; present only where the material has a normal map
     std::array<std::vector<glm::vec2>, 2> uvs;
     std::vector<glm::vec4> colors;  // linear, multiplies base_color
     std::vector<glm::uvec3> triangles;
@@ -107,14 +109,14 @@ struct Instance {
 
 struct Camera {
     std::string name;
-    glm::dmat4 camera_to_world{1};     // rigid: the import removes scale
+    glm::dmat4 camera_to_world{1};  // rigid: the import removes scale
     bool orthographic = false;
-    double vertical_fov = 0.785;       // radians; perspective only
-    double orthographic_height = 1;    // full height of the view, metres; orthographic only
-    std::optional<double> aspect;      // width / height the file asks for; the render's own size wins
-    double lens_radius = 0;            // metres; 0 is a pinhole
-    double focus_distance = 1;         // metres along -Z
-    int node = none;                   // that it hangs in; none where nothing moves it
+    double vertical_fov = 0.785;     // radians; perspective only
+    double orthographic_height = 1;  // full height of the view, metres; orthographic only
+    std::optional<double> aspect;    // width / height the file asks for; the render's own size wins
+    double lens_radius = 0;          // metres; 0 is a pinhole
+    double focus_distance = 1;       // metres along -Z
+    int node = none;                 // that it hangs in; none where nothing moves it
 };
 
 enum class PunctualType { point, spot, directional };
@@ -127,12 +129,12 @@ struct PunctualLight {
     glm::vec3 intensity{1};  // point and spot: W/sr; directional: W/m^2
     double inner_cone = 0;   // radians
     double outer_cone = 0.7853981633974483;
-    int node = none;                        // that it hangs in; none where nothing moves it
+    int node = none;                          // that it hangs in; none where nothing moves it
     std::optional<glm::vec3> moving_color{};  // present where an animation sets the intensity: what it multiplies
 };
 
-/// Light from infinity. Radiance is `scale` times 1 (constant) or times the map, an equirectangular image whose centre looks
-/// along -Z before `rotation` (radians, counter-clockwise about +Y seen from above) and whose top row is +Y.
+/// Light from infinity. Radiance is `scale` times 1 (constant) or times the map, an equirectangular image whose centre
+/// looks along -Z before `rotation` (radians, counter-clockwise about +Y seen from above) and whose top row is +Y.
 struct Environment {
     using Kind = EnvironmentKind;
     Kind kind = Kind::none;

@@ -37,7 +37,8 @@ BiasSquared bias_squared(const DeviationSums& sums, std::span<const float> refer
     const double pairs = static_cast<double>(sums.runs) * (sums.runs - 1);
     const int height = static_cast<int>(sums.sum.size()) / (width * channels);
     const int columns = (width + block - 1) / block;
-    std::vector<double> totals(static_cast<std::size_t>(columns) * static_cast<std::size_t>((height + block - 1) / block));
+    std::vector<double> totals(static_cast<std::size_t>(columns) *
+                               static_cast<std::size_t>((height + block - 1) / block));
     std::size_t heavy = 0, noisy = 0;
     for (std::size_t i = 0; i < sums.sum.size(); ++i) {
         const std::size_t pixel = i / static_cast<std::size_t>(channels);

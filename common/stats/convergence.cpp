@@ -73,8 +73,8 @@ Interval mean_interval(std::span<const double> values, double confidence) {
     const SampleSummary summary = summarize(values);
     interval.value = summary.mean;
     if (values.size() > 1) {
-        const double half = std::sqrt(summary.variance / summary.count) *
-                            student_quantile((1 + confidence) / 2, summary.count - 1);
+        const double half =
+            std::sqrt(summary.variance / summary.count) * student_quantile((1 + confidence) / 2, summary.count - 1);
         interval.low = summary.mean - half;
         interval.high = summary.mean + half;
     }
@@ -169,7 +169,8 @@ TargetTime time_to_target(std::span<const double> seconds, std::span<const doubl
     }
     for (std::size_t i = 1; i < seconds.size(); ++i) {
         if (errors[i] <= target && errors[i] > 0) {
-            return {TargetTime::Kind::reached, line_in_logarithms(errors[i - 1], seconds[i - 1], errors[i], seconds[i], target)};
+            return {TargetTime::Kind::reached,
+                    line_in_logarithms(errors[i - 1], seconds[i - 1], errors[i], seconds[i], target)};
         }
     }
     return {TargetTime::Kind::later, seconds.back()};

@@ -73,8 +73,8 @@ struct PathRecorder {
 
 namespace shared {
 
-/// The hooks of hooks.md, and the integrators as members. Code behind features outside ALLOWED is left out; the scene must not need
-/// them.
+/// The hooks of hooks.md, and the integrators as members. Code behind features outside ALLOWED is left out; the scene
+/// must not need them.
 template <class Tracer, uint ALLOWED>
 struct CpuKernel {
     const PackedScene& packed;
@@ -85,10 +85,10 @@ struct CpuKernel {
     bool feature(uint bit) const { return (features() & bit) != 0; }
     uint features() const { return packed.features & ALLOWED; }
 
-#define DEFINE_LOAD(Type, name)                 \
-    const Type& load_##name(uint index) const { \
-        assert(index < packed.name.size());     \
-        return packed.name[index];              \
+#define DEFINE_LOAD(Type, name)                                                                                        \
+    const Type& load_##name(uint index) const {                                                                        \
+        assert(index < packed.name.size());                                                                            \
+        return packed.name[index];                                                                                     \
     }
     SCENE_BUFFERS(DEFINE_LOAD)
 #undef DEFINE_LOAD
@@ -104,8 +104,12 @@ struct CpuKernel {
         return tracer.any_previous(origin, direction, t_max, alpha_key);
     }
 
-    const FirstVertex& load_first_vertex(uint index) const { return films->first_vertices[index]; }
-    void store_first_vertex(uint index, const FirstVertex& vertex) const { films->first_vertices[index] = vertex; }
+    const FirstVertex& load_first_vertex(uint index) const {
+        return films->first_vertices[index];
+    }
+    void store_first_vertex(uint index, const FirstVertex& vertex) const {
+        films->first_vertices[index] = vertex;
+    }
     const Reservoir& load_reservoir(uint set, uint index) const {
         return films->reservoirs[set * films->pixels + index];
     }
@@ -119,9 +123,9 @@ struct CpuKernel {
         films->surfaces[set * films->pixels + index] = s;
     }
 
-#define RECORD(field, value)                       \
-    if constexpr (Tracer::records_paths) {         \
-        tracer.vertices.back().field = (value);    \
+#define RECORD(field, value)                                                                                           \
+    if constexpr (Tracer::records_paths) {                                                                             \
+        tracer.vertices.back().field = (value);                                                                        \
     }
 #include "restir.kernel.h"
 #undef RECORD

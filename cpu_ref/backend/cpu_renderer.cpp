@@ -26,16 +26,15 @@ constexpr std::uint32_t plain_features = diffuse_features | shared::FEATURE_GGX;
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 class CpuRenderer final : public Renderer {
 public:
     CpuRenderer(const PackedScene& packed, int threads)
-        : packed_(&packed),
-          constants_(packed.constants),
-          arena_(threads > 0 ? threads : tbb::task_arena::automatic),
-          start_(Clock::now()),
-          scene_(arena_.execute([&] { return std::make_unique<EmbreeScene>(packed); })) {
+        : packed_(&packed), constants_(packed.constants), arena_(threads > 0 ? threads : tbb::task_arena::automatic),
+          start_(Clock::now()), scene_(arena_.execute([&] { return std::make_unique<EmbreeScene>(packed); })) {
         build_seconds_ = seconds_since(start_);
         lay_out_films();
     }
@@ -126,13 +125,16 @@ private:
         const tbb::blocked_range2d<int> tiles(0, (film_.height + tile_size - 1) / tile_size, 1, 0,
                                               (film_.width + tile_size - 1) / tile_size, 1);
         arena_.execute([&] {
-            tbb::parallel_for(tiles, [&](const tbb::blocked_range2d<int>& range) {
-                for (int y = range.rows().begin(); y < range.rows().end(); ++y) {
-                    for (int x = range.cols().begin(); x < range.cols().end(); ++x) {
-                        body(x, y);
+            tbb::parallel_for(
+                tiles,
+                [&](const tbb::blocked_range2d<int>& range) {
+                    for (int y = range.rows().begin(); y < range.rows().end(); ++y) {
+                        for (int x = range.cols().begin(); x < range.cols().end(); ++x) {
+                            body(x, y);
+                        }
                     }
-                }
-            }, tbb::simple_partitioner());
+                },
+                tbb::simple_partitioner());
         });
     }
 
@@ -195,19 +197,19 @@ private:
                 shared::CpuKernel<PlainTracer, ~0U> kernel{*packed_, constants_, {*scene_}, &reuse_};
                 for_pixels(film, tile_x, tile_y, [&](shared::uvec2 pixel, FilmEntry entry) {
                     switch (step.stage) {
-                        case ResamplingStage::candidates:
-                            kernel.resample_candidates(pixel, step.pass);
-                            break;
-                        case ResamplingStage::temporal:
-                            kernel.reuse_temporal(pixel, step.pass);
-                            break;
-                        case ResamplingStage::spatial:
-                            kernel.reuse_spatial(pixel, step.pass);
-                            break;
-                        case ResamplingStage::shade:
-                            kernel.add_path(kernel.shade_resampled(pixel, step.pass), entry.pixel, entry.moments,
-                                            entry.first_hit);
-                            break;
+                    case ResamplingStage::candidates:
+                        kernel.resample_candidates(pixel, step.pass);
+                        break;
+                    case ResamplingStage::temporal:
+                        kernel.reuse_temporal(pixel, step.pass);
+                        break;
+                    case ResamplingStage::spatial:
+                        kernel.reuse_spatial(pixel, step.pass);
+                        break;
+                    case ResamplingStage::shade:
+                        kernel.add_path(kernel.shade_resampled(pixel, step.pass), entry.pixel, entry.moments,
+                                        entry.first_hit);
+                        break;
                     }
                 });
             });
@@ -287,9 +289,10 @@ TraversalBench CpuRenderer::bench_traversal(std::uint32_t samples) {
         for_tiles([&](int x, int y) {
             std::uint64_t found = 0;
             for (const TracedRay& ray : of_tile(x, y)) {
-                found += ray.any ? static_cast<std::uint64_t>(
-                                       scene_->any(ray.origin, ray.direction, ray.t_max, ray.alpha_key))
-                                 : scene_->closest(ray.origin, ray.direction, ray.alpha_key).instance;
+                found +=
+                    ray.any
+                        ? static_cast<std::uint64_t>(scene_->any(ray.origin, ray.direction, ray.t_max, ray.alpha_key))
+                        : scene_->closest(ray.origin, ray.direction, ray.alpha_key).instance;
             }
             hits += found;
         });

@@ -8,8 +8,8 @@
 
 namespace diptych {
 
-/// Keeps a reference to the packed scene, which must outlive it. `threads` 0 means all. Images depend on neither threads nor tiles:
-/// every pixel sums its own samples, in their order.
+/// Keeps a reference to the packed scene, which must outlive it. `threads` 0 means all. Images depend on neither
+/// threads nor tiles: every pixel sums its own samples, in their order.
 std::unique_ptr<Renderer> make_cpu_renderer(const PackedScene& packed, int threads);
 
 /// The processor's own name, or "CPU".

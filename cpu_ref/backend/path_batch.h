@@ -6,9 +6,9 @@
 
 namespace diptych {
 
-/// One sample each of neighbouring pixels. Every step is done for all paths before the next one, so that points on emitters come
-/// from vector code and one path's work fills the time that another's waits. A path depends on nothing but its pixel and sample,
-/// so its company changes nothing.
+/// One sample each of neighbouring pixels. Every step is done for all paths before the next one, so that points on
+/// emitters come from vector code and one path's work fills the time that another's waits. A path depends on nothing
+/// but its pixel and sample, so its company changes nothing.
 template <class Kernel>
 class PathBatch {
 public:

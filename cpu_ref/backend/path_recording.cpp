@@ -36,9 +36,8 @@ std::vector<RecordedPath> record_paths(const PackedScene& packed, const shared::
     return paths;
 }
 
-std::vector<shared::PathSummary> summarize_paths(const PackedScene& packed,
-                                                 const shared::RenderConstants& constants, const EmbreeScene& scene,
-                                                 Queries queries) {
+std::vector<shared::PathSummary> summarize_paths(const PackedScene& packed, const shared::RenderConstants& constants,
+                                                 const EmbreeScene& scene, Queries queries) {
     std::vector<shared::PathSummary> summaries(queries.size());
     trace_paths(packed, constants, scene, queries, [&](std::size_t i, const auto& vertices, const glm::vec3& radiance) {
         shared::PathSummary summary = shared::begin_path_summary();

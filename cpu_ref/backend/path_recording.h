@@ -13,8 +13,7 @@ namespace diptych {
 /// Run within the arena that is to do the work. `constants` stand in for the pack's own.
 std::vector<RecordedPath> record_paths(const PackedScene& packed, const shared::RenderConstants& constants,
                                        const EmbreeScene& scene, std::span<const shared::PathQuery> queries);
-std::vector<shared::PathSummary> summarize_paths(const PackedScene& packed,
-                                                 const shared::RenderConstants& constants, const EmbreeScene& scene,
-                                                 std::span<const shared::PathQuery> queries);
+std::vector<shared::PathSummary> summarize_paths(const PackedScene& packed, const shared::RenderConstants& constants,
+                                                 const EmbreeScene& scene, std::span<const shared::PathQuery> queries);
 
 }  // namespace diptych

@@ -5,8 +5,8 @@
 
 namespace diptych {
 
-/// sample_emitter_point's arguments and results, each an array over lanes: the shared code in a loop without branches, which
-/// compilers turn into vectors. What one triangle costs, a vector of them costs too.
+/// sample_emitter_point's arguments and results, each an array over lanes: the shared code in a loop without branches,
+/// which compilers turn into vectors. What one triangle costs, a vector of them costs too.
 struct alignas(64) TriangleLanes {
     static constexpr int width = 16;
     using Lane = float[width];

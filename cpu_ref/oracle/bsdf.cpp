@@ -114,8 +114,8 @@ Scattered sample(const Bsdf& bsdf, const dvec3& n, const dvec3& o, Random& rando
         return drawn;
     }
     // F D G / (4 cos_o cos_i) cos_i over the density D cos_h / (4 o·h).
-    const double g = 1 / (1 + smith_lambda(bsdf.model, bsdf.alpha, cos_o) +
-                          smith_lambda(bsdf.model, bsdf.alpha, cos_i));
+    const double g =
+        1 / (1 + smith_lambda(bsdf.model, bsdf.alpha, cos_o) + smith_lambda(bsdf.model, bsdf.alpha, cos_i));
     drawn.weight = fresnel(bsdf, o_h) * (g * o_h / (cos_o * cos_h * share));
     return drawn;
 }

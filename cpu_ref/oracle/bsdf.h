@@ -59,8 +59,12 @@ Scattered sample_mirror(const Bsdf& bsdf, const dvec3& n, const dvec3& o);
 dvec3 around(const dvec3& n, double c, double angle);
 
 /// w mirrored in the plane across n; -w mirrored is the direction light takes.
-inline dvec3 flip_across(const dvec3& w, const dvec3& n) { return w - 2 * glm::dot(w, n) * n; }
+inline dvec3 flip_across(const dvec3& w, const dvec3& n) {
+    return w - 2 * glm::dot(w, n) * n;
+}
 
-inline double largest(const dvec3& v) { return glm::max(v.x, glm::max(v.y, v.z)); }
+inline double largest(const dvec3& v) {
+    return glm::max(v.x, glm::max(v.y, v.z));
+}
 
 }  // namespace diptych::oracle

@@ -1,5 +1,5 @@
-// Normals under a viewer, and microfacet-based normal mapping (Schüssler, Heitz, Hanika and Dachsbacher 2017) with a specular
-// tangent facet, as docs/integrand.md words both.
+// Normals under a viewer, and microfacet-based normal mapping (Schüssler, Heitz, Hanika and Dachsbacher 2017) with a
+// specular tangent facet, as docs/integrand.md words both.
 #pragma once
 
 #include "oracle/bsdf.h"

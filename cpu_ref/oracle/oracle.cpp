@@ -45,9 +45,8 @@ struct Oracle::State {
     tbb::task_arena arena;
 
     State(const Scene& scene, const OracleSettings& s, int threads)
-        : settings(s), world(make_world(scene)), traversal(world),
-          emitters(world, emitter_choice(s.mode)), sky(scene.environment),
-          arena(threads > 0 ? threads : tbb::task_arena::automatic) {
+        : settings(s), world(make_world(scene)), traversal(world), emitters(world, emitter_choice(s.mode)),
+          sky(scene.environment), arena(threads > 0 ? threads : tbb::task_arena::automatic) {
         image.pixels.resize(std::size_t(s.width) * std::size_t(s.height));
         image.depths.resize(s.by_depth ? image.pixels.size() * (s.max_depth + 1) : 0);
     }
@@ -80,8 +79,8 @@ void Oracle::State::add(std::size_t index, const PathResult& path, const std::ve
     }
 }
 
-/// The samples of one pixel and run that lie in [first, end). Those before are traced too, since the generator's state depends on
-/// them.
+/// The samples of one pixel and run that lie in [first, end). Those before are traced too, since the generator's state
+/// depends on them.
 void Oracle::State::render_run(int x, int y, std::uint64_t run, std::uint64_t first, std::uint64_t end) {
     const Camera& camera = world.scene->cameras[std::size_t(settings.camera)];
     const Paths paths{world, traversal, emitters, sky, settings.distribution, settings.mode, settings.max_depth};
@@ -133,8 +132,8 @@ const OracleImage& Oracle::image() const {
 }
 
 std::uint64_t Oracle::bytes() const {
-    return acceleration_bytes() + state_->world.triangles.size() * sizeof(Triangle) + state_->image.pixels.size() * sizeof(OraclePixel) +
-           state_->image.depths.size() * sizeof(OracleDepth);
+    return acceleration_bytes() + state_->world.triangles.size() * sizeof(Triangle) +
+           state_->image.pixels.size() * sizeof(OraclePixel) + state_->image.depths.size() * sizeof(OracleDepth);
 }
 
 std::uint64_t Oracle::acceleration_bytes() const {

@@ -1,4 +1,5 @@
-// The independent renderer: double precision, textbook path tracing, docs/integrand.md and nothing of the shared headers.
+// The independent renderer: double precision, textbook path tracing, docs/integrand.md and nothing of the shared
+// headers.
 #pragma once
 
 #include <atomic>
@@ -21,7 +22,8 @@ struct OracleSettings {
     bool by_depth = false;  // keep OracleImage::depths
 };
 
-/// Sums over one pixel's samples. A sample that is not finite, or negative, adds to `nonfinite` alone; its first hit counts.
+/// Sums over one pixel's samples. A sample that is not finite, or negative, adds to `nonfinite` alone; its first hit
+/// counts.
 struct OraclePixel {
     glm::dvec3 sum{0};
     glm::dvec3 first{0};        // the first sample
@@ -48,8 +50,8 @@ struct OracleImage {
 
 class Oracle {
 public:
-    /// Keeps a reference to the scene, which must outlive it. `threads` 0 is one a core. Throws Error where the settings
-    /// do not fit the scene.
+    /// Keeps a reference to the scene, which must outlive it. `threads` 0 is one a core. Throws Error where the
+    /// settings do not fit the scene.
     Oracle(const Scene& scene, const OracleSettings& settings, int threads = 0);
     ~Oracle();
 

@@ -63,7 +63,8 @@ void PathTracer::add(unsigned depth, const dvec3& radiance) {
 /// Whether the path goes on after its scattering number `depth` + 1.
 bool PathTracer::survives(unsigned depth) {
     if (!std::isfinite(throughput_.x + throughput_.y + throughput_.z)) {
-        result_.radiance = dvec3(std::numeric_limits<double>::quiet_NaN());  // to be counted, even where no light follows
+        result_.radiance =
+            dvec3(std::numeric_limits<double>::quiet_NaN());  // to be counted, even where no light follows
         return false;
     }
     if (throughput_ == dvec3(0) || depth < roulette_depth) {

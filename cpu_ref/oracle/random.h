@@ -23,9 +23,7 @@ public:
     /// Uniform in [0, 1), 53 bits.
     double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
     /// Uniform in 0 .. count-1; count > 0. Its bias, count / 2^53, is far below what any sum could show.
-    std::size_t below(std::size_t count) {
-        return static_cast<std::size_t>(uniform() * static_cast<double>(count));
-    }
+    std::size_t below(std::size_t count) { return static_cast<std::size_t>(uniform() * static_cast<double>(count)); }
 
 private:
     std::mt19937_64 engine_;

@@ -8,8 +8,8 @@ namespace {
 
 dvec4 base_color(const World& world, const Triangle& triangle, dvec2 uv) {
     const Material& m = *triangle.material;
-    const dvec4 vertex = triangle.primitive->colors.empty() ? dvec4(1)
-                                                            : interpolate(triangle.primitive->colors, triangle, uv);
+    const dvec4 vertex =
+        triangle.primitive->colors.empty() ? dvec4(1) : interpolate(triangle.primitive->colors, triangle, uv);
     return dvec4(m.base_color) * vertex *
            sample_texture(*world.scene, m.base_color_texture, triangle, uv, Encoding::srgb);
 }
@@ -22,8 +22,8 @@ Bsdf make_bsdf(const World& world, Distribution model, const Triangle& triangle,
     const double roughness = glm::clamp(double(m.roughness) * rough.g, 0.0, 1.0);
     const double specular =
         double(m.specular) * sample_texture(scene, m.specular_texture, triangle, uv, Encoding::linear).a;
-    const dvec3 tint = dvec3(m.specular_color) *
-                       dvec3(sample_texture(scene, m.specular_color_texture, triangle, uv, Encoding::srgb));
+    const dvec3 tint =
+        dvec3(m.specular_color) * dvec3(sample_texture(scene, m.specular_color_texture, triangle, uv, Encoding::srgb));
     const double ior = m.ior;
     const double dielectric = ior == 0 ? 1 : (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1));
     Bsdf bsdf;
@@ -40,8 +40,8 @@ dvec3 mesh_normal(const World& world, const Triangle& triangle, dvec2 uv) {
     if (triangle.primitive->normals.empty()) {
         return triangle.front;
     }
-    const dvec3 n = world.frames[triangle.frame].inverse_transpose *
-                    interpolate(triangle.primitive->normals, triangle, uv);
+    const dvec3 n =
+        world.frames[triangle.frame].inverse_transpose * interpolate(triangle.primitive->normals, triangle, uv);
     const double size = length(n);
     return size > 0 ? n / size : triangle.front;
 }

@@ -1,4 +1,5 @@
-// A point on a triangle as light meets it: material, emission, normals (docs/integrand.md: Surfaces, Material, Emission).
+// A point on a triangle as light meets it: material, emission, normals (docs/integrand.md: Surfaces, Material,
+// Emission).
 #pragma once
 
 #include "oracle/bsdf.h"
@@ -7,7 +8,6 @@
 #include "oracle/world.h"
 
 namespace diptych::oracle {
-
 
 /// A hit seen from `o`.
 struct Surface {

@@ -27,8 +27,8 @@ constexpr auto init_context = rtcInitIntersectContext;
 
 /// In front of the origin by more than double's own rounding, relative to the scene.
 constexpr double least_t = 1e-11;
-/// How far behind its origin Embree's ray starts, and how far beyond its end it goes, relative to the scene. Float's rounding is
-/// 6e-8 of the largest coordinate across a surface, and 1 / cos of that along a ray that grazes it.
+/// How far behind its origin Embree's ray starts, and how far beyond its end it goes, relative to the scene. Float's
+/// rounding is 6e-8 of the largest coordinate across a surface, and 1 / cos of that along a ray that grazes it.
 constexpr double head_start = 1e-5;
 constexpr double run_out = 1e-3;
 
@@ -102,8 +102,8 @@ struct Traversal::Structures {
         const std::size_t count = world->triangles.size();
         auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * count));
-        auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), count));
+        auto* indices = static_cast<glm::uvec3*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), count));
         if (vertices == nullptr || indices == nullptr) {
             rtcReleaseGeometry(geometry);
             throw Error("oracle: Embree: out of memory for " + std::to_string(count) + " triangles");

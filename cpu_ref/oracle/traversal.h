@@ -19,15 +19,16 @@ struct Hit {
 };
 
 struct Ray {
-    dvec3 origin;  // relative to World::origin
-    dvec3 direction;  // unit
+    dvec3 origin;                    // relative to World::origin
+    dvec3 direction;                 // unit
     std::size_t from = no_triangle;  // the triangle that the ray starts on, which it cannot meet again
     std::size_t to = no_triangle;    // the triangle that the ray ends on
     double t_max = std::numeric_limits<double>::infinity();
     std::uint64_t coin = 0;  // random bits for surfaces that are there with a probability
 };
 
-/// Where the ray's line crosses the triangle's plane, in double; nothing where it is parallel. Barycentrics are unclamped.
+/// Where the ray's line crosses the triangle's plane, in double; nothing where it is parallel. Barycentrics are
+/// unclamped.
 std::optional<Hit> cross_plane(const Triangle& triangle, std::size_t index, const Ray& ray);
 
 /// Whether a surface that is crossed at `hit` is there for this ray (docs/integrand.md: Alpha).
@@ -35,9 +36,9 @@ bool is_there(const World& world, const Ray& ray, const Hit& hit);
 
 /// The world in Embree, which the world must outlive.
 ///
-/// Embree works in float. Its ray starts a little behind the double origin, so that nothing near it is lost, and each candidate is
-/// intersected again in double, where those not in front of the origin are refused. Offsetting the origin forward
-/// instead would lose what lies in the gap. The triangle that is left is refused by name.
+/// Embree works in float. Its ray starts a little behind the double origin, so that nothing near it is lost, and each
+/// candidate is intersected again in double, where those not in front of the origin are refused. Offsetting the origin
+/// forward instead would lose what lies in the gap. The triangle that is left is refused by name.
 class Traversal {
 public:
     /// Throws Error where Embree does.

@@ -26,8 +26,8 @@ void find_extent(World& world) {
     visit_primitives(*world.scene, [&](std::size_t instance, const Primitive& primitive) {
         for (const glm::uvec3& triangle : primitive.triangles) {
             for (int k = 0; k < 3; ++k) {
-                const dvec3 p = transform_point(world.scene->instances[instance].object_to_world,
-                                                primitive.positions[triangle[k]]);
+                const dvec3 p =
+                    transform_point(world.scene->instances[instance].object_to_world, primitive.positions[triangle[k]]);
                 low = min(low, p);
                 high = max(high, p);
             }

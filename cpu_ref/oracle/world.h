@@ -17,9 +17,9 @@ struct Triangle {
     dvec3 a;
     dvec3 b;
     dvec3 c;
-    dvec3 ab;           // b - a
-    dvec3 ac;           // c - a
-    dvec3 front;        // unit normal of the side where vertices run counter-clockwise, a mirrored instance's flip undone
+    dvec3 ab;     // b - a
+    dvec3 ac;     // c - a
+    dvec3 front;  // unit normal of the side where vertices run counter-clockwise, a mirrored instance's flip undone
     glm::uvec3 vertex;  // in `primitive`
     const Primitive* primitive;
     const Material* material;
@@ -36,8 +36,8 @@ struct Frame {
 /// A scene whose instances have been multiplied out. The scene must outlive it.
 struct World {
     const Scene* scene;
-    dvec3 origin;  // world position of our (0, 0, 0): the middle of the scene, so that a far scene keeps its digits
-    double extent; // half the diagonal of the triangles' box, metres
+    dvec3 origin;   // world position of our (0, 0, 0): the middle of the scene, so that a far scene keeps its digits
+    double extent;  // half the diagonal of the triangles' box, metres
     std::vector<Frame> frames;
     std::vector<Triangle> triangles;  // those with an area
     bool has_alpha = false;           // some surface may be passed by rays
@@ -45,10 +45,14 @@ struct World {
 
 World make_world(const Scene& scene);
 
-inline double area(const Triangle& triangle) { return 0.5 * glm::length(glm::cross(triangle.ab, triangle.ac)); }
+inline double area(const Triangle& triangle) {
+    return 0.5 * glm::length(glm::cross(triangle.ab, triangle.ac));
+}
 
 /// The point with barycentrics (u, v) of b and c.
-inline dvec3 point_on(const Triangle& triangle, dvec2 uv) { return triangle.a + uv.x * triangle.ab + uv.y * triangle.ac; }
+inline dvec3 point_on(const Triangle& triangle, dvec2 uv) {
+    return triangle.a + uv.x * triangle.ab + uv.y * triangle.ac;
+}
 
 /// An attribute between the three vertices; `values` is not empty.
 template <typename T>

@@ -39,8 +39,7 @@ shared::FilmMoments to_moments(const OraclePixel& pixel) {
     out.first = glm::vec3(pixel.first);
     const glm::dvec3 shift = pixel.first - glm::dvec3(out.first);
     const double n = static_cast<double>(pixel.samples);
-    const glm::dvec3 squares =
-        pixel.sum_squares + 2.0 * shift * (pixel.sum - n * pixel.first) + n * shift * shift;
+    const glm::dvec3 squares = pixel.sum_squares + 2.0 * shift * (pixel.sum - n * pixel.first) + n * shift * shift;
     split(squares, out.sum_squares, out.compensation);
     return out;
 }
@@ -63,8 +62,7 @@ OracleSettings oracle_settings(const RenderSettings& settings, oracle::Mode mode
     out.max_depth = settings.max_depth;
     out.seed = settings.seed;
     out.mode = mode;
-    out.distribution =
-        settings.brdf == BrdfModel::ggx ? oracle::Distribution::ggx : oracle::Distribution::blinn_phong;
+    out.distribution = settings.brdf == BrdfModel::ggx ? oracle::Distribution::ggx : oracle::Distribution::blinn_phong;
     out.camera = settings.camera;
     return out;
 }

@@ -120,8 +120,8 @@ TEST_CASE("compare --minus takes a part off both pictures first", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const auto render = [&](const std::string& name, const std::string& depth, const std::string& seed) {
-        REQUIRE(run_diptych(folder, {"render", scene, "-o", folder.file(name), "--size", "16", "--spp", "2", "--max-depth",
-                                     depth, "--seed", seed})
+        REQUIRE(run_diptych(folder, {"render", scene, "-o", folder.file(name), "--size", "16", "--spp", "2",
+                                     "--max-depth", depth, "--seed", seed})
                     .exit_code == 0);
     };
     render("a0.exr", "0", "1");
@@ -136,7 +136,7 @@ TEST_CASE("compare --minus takes a part off both pictures first", "[app]") {
     const ProcessResult rest = run_diptych(folder, {"compare", folder.file("a1.exr"), folder.file("a0.exr"), "--minus",
                                                     folder.file("a0.exr") + "," + folder.file("a0.exr"), "--json"});
     CHECK(nlohmann::json::parse(rest.out).at("mse") > 0);
-    check_refusal(run_diptych(folder, {"compare", folder.file("a1.exr"), folder.file("a0.exr"), "--max-z", "4", "--minus",
-                                       folder.file("a0.exr") + "," + folder.file("a0.exr")}),
+    check_refusal(run_diptych(folder, {"compare", folder.file("a1.exr"), folder.file("a0.exr"), "--max-z", "4",
+                                       "--minus", folder.file("a0.exr") + "," + folder.file("a0.exr")}),
                   2, {"--max-z"});
 }

@@ -5,8 +5,8 @@
 
 namespace diptych::tests {
 
-/// The first tag that closes nothing, or stays open at the end, with the text before it; empty where all is well. Elements without an
-/// end are known, what script and style hold is not looked at.
+/// The first tag that closes nothing, or stays open at the end, with the text before it; empty where all is well.
+/// Elements without an end are known, what script and style hold is not looked at.
 std::string html_fault(const std::string& page);
 
 /// The text of the script element with this id; empty where there is none.

@@ -15,8 +15,8 @@ TEST_CASE("render warns of samples that it dropped, counts them, and writes what
     const std::string backend = GENERATE("cpu", "vulkan");
     // A sky near the largest float: the triangle's light samples overflow, and so would sums of the sky itself.
     const ProcessResult result =
-        run_diptych(folder, {"render", scene, "-o", folder.file("out.exr"), "--backend", backend, "--env", "3e38,3e38,3e38",
-                             "--integrator", "direct", "--spp", "4", "--size", "16", "--json"});
+        run_diptych(folder, {"render", scene, "-o", folder.file("out.exr"), "--backend", backend, "--env",
+                             "3e38,3e38,3e38", "--integrator", "direct", "--spp", "4", "--size", "16", "--json"});
     INFO(backend << "\n" << result.err);
     if (result.exit_code == 3) {
         SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 or later brings one");

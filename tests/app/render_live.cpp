@@ -11,7 +11,8 @@ namespace {
 
 std::vector<std::string> arguments(const TemporaryFolder& folder, const std::string& endpoint,
                                    const std::vector<std::string>& more) {
-    std::vector<std::string> all = {"render", generate_scene(folder, "cornell"), "-o", folder.file("a.exr"), "--live", endpoint};
+    std::vector<std::string> all = {"render", generate_scene(folder, "cornell"), "-o", folder.file("a.exr"), "--live",
+                                    endpoint};
     all.insert(all.end(), more.begin(), more.end());
     return all;
 }
@@ -23,8 +24,8 @@ TEST_CASE("a viewer on the network ends with the picture of the file, to the bit
     for (const std::string backend : {"cpu", "oracle"}) {
         INFO(backend);
         TevReceiver viewer;
-        const ProcessResult result =
-            run_diptych(folder, arguments(folder, viewer.endpoint(), {"--size", "640x480", "--spp", "1", "--backend", backend}));
+        const ProcessResult result = run_diptych(
+            folder, arguments(folder, viewer.endpoint(), {"--size", "640x480", "--spp", "1", "--backend", backend}));
         INFO(result.err);
         REQUIRE(result.exit_code == 0);
         const auto& images = viewer.finish();
@@ -43,14 +44,16 @@ TEST_CASE("a viewer sees a render before it ends, and a sequence picture by pict
     const TemporaryFolder folder;
     {
         TevReceiver viewer;
-        const ProcessResult result = run_diptych(folder, arguments(folder, viewer.endpoint(), {"--size", "32x24", "--time", "2.5"}));
+        const ProcessResult result =
+            run_diptych(folder, arguments(folder, viewer.endpoint(), {"--size", "32x24", "--time", "2.5"}));
         INFO(result.err);
         REQUIRE(result.exit_code == 0);
         CHECK(viewer.finish().at(folder.file("a.exr")).updates >= 2);
     }
     TevReceiver viewer;
     const ProcessResult result =
-        run_diptych(folder, arguments(folder, viewer.endpoint(), {"--size", "32x24", "--spp", "2", "--frames", "2", "--orbit", "5"}));
+        run_diptych(folder, arguments(folder, viewer.endpoint(),
+                                      {"--size", "32x24", "--spp", "2", "--frames", "2", "--orbit", "5"}));
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     const auto& images = viewer.finish();
@@ -63,8 +66,8 @@ TEST_CASE("a viewer sees a render before it ends, and a sequence picture by pict
 TEST_CASE("a viewer that hangs up costs a warning, not the render", "[app]") {
     const TemporaryFolder folder;
     TevReceiver viewer(1);
-    const ProcessResult result =
-        run_diptych(folder, arguments(folder, viewer.endpoint(), {"--size", "1024x768", "--spp", "1", "--max-depth", "1"}));
+    const ProcessResult result = run_diptych(
+        folder, arguments(folder, viewer.endpoint(), {"--size", "1024x768", "--spp", "1", "--max-depth", "1"}));
     CHECK(result.exit_code == 0);
     CHECK(result.err.find("the render goes on without it") != std::string::npos);
     CHECK(read_image(folder.file("a.exr")).color.width == 1024);
@@ -77,10 +80,12 @@ TEST_CASE("a viewer that is not there, or no address, is refused before the work
         const TevReceiver viewer;
         nobody = viewer.endpoint();
     }
-    for (const std::string& endpoint : {nobody, std::string("localhost"), std::string("localhost:0"), std::string("localhost:70000"),
-                                        std::string("::1:14158"), std::string(":14158"), std::string("localhost:http")}) {
+    for (const std::string& endpoint :
+         {nobody, std::string("localhost"), std::string("localhost:0"), std::string("localhost:70000"),
+          std::string("::1:14158"), std::string(":14158"), std::string("localhost:http")}) {
         INFO(endpoint);
-        const ProcessResult result = run_diptych(folder, arguments(folder, endpoint, {"--size", "16x16", "--spp", "1"}));
+        const ProcessResult result =
+            run_diptych(folder, arguments(folder, endpoint, {"--size", "16x16", "--spp", "1"}));
         CHECK(result.exit_code == 2);
         CHECK(result.err.find("--live " + endpoint + ":") != std::string::npos);
         CHECK_FALSE(std::filesystem::exists(folder.file("a.exr")));

@@ -9,7 +9,9 @@ using namespace diptych::tests;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -22,9 +24,9 @@ TEST_CASE("replay prints a path vertex by vertex, on the CPU alone", "[app]") {
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     CHECK(result.err.empty());
-    for (const char* part : {"pixel 16,20 of 32x32, sample 3, seed 9, path", "cpu: ", "vertex 0", "vertex 1", "position",
-                             "barycentrics", "light", "shadow ray", "lobe", "bsdf pdf", "roulette", "throughput",
-                             "the whole path", "radiance"}) {
+    for (const char* part :
+         {"pixel 16,20 of 32x32, sample 3, seed 9, path", "cpu: ", "vertex 0", "vertex 1", "position", "barycentrics",
+          "light", "shadow ray", "lobe", "bsdf pdf", "roulette", "throughput", "the whole path", "radiance"}) {
         INFO(part);
         CHECK(contains(result.out, part));
     }
@@ -61,8 +63,8 @@ TEST_CASE("replay sets both backends side by side", "[app]") {
     CHECK(contains(result.out, "cpu: "));
     CHECK(contains(result.out, "vulkan: "));
     CHECK(contains(result.out, "No vertex differs by more than 0.001."));
-    const ProcessResult strict = run_diptych(
-        folder, {"replay", scene, "--pixel", "16,20", "--size", "32", "--tolerance", "0", "--json"});
+    const ProcessResult strict =
+        run_diptych(folder, {"replay", scene, "--pixel", "16,20", "--size", "32", "--tolerance", "0", "--json"});
     const auto json = nlohmann::json::parse(strict.out);
     CHECK(json.at("paths").size() == 2);
     CHECK(json.at("tolerance") == 0);
@@ -86,8 +88,9 @@ TEST_CASE("replay refuses what it cannot replay", "[app]") {
 TEST_CASE("verify --paired compares panels path by path", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const std::vector<std::string> paired = {"verify", scene, "--paired",      "--size", "32", "--spp",
-                                             "4",      "--integrators", "path", "--json", "-o", folder.path().string()};
+    const std::vector<std::string> paired = {"verify", scene,    "--paired", "--size",
+                                             "32",     "--spp",  "4",        "--integrators",
+                                             "path",   "--json", "-o",       folder.path().string()};
     const ProcessResult result = run_diptych(folder, paired);
     if (result.exit_code == 3 || contains(result.err, "DIPTYCH_VULKAN=OFF")) {
         SKIP_TEST("no Vulkan device with ray tracing");

@@ -33,8 +33,10 @@ std::unique_ptr<Renderer> make_renderer(const std::string& backend, const Packed
     return make_cpu_renderer(packed, 0);
 }
 
-/// Frames of the scene one after another, `spp` samples each, as chains are tested: one renderer, moved and never restarted.
-std::vector<Image> chain_of(const std::string& file, const std::string& backend, std::uint32_t frames, std::uint32_t spp) {
+/// Frames of the scene one after another, `spp` samples each, as chains are tested: one renderer, moved and never
+/// restarted.
+std::vector<Image> chain_of(const std::string& file, const std::string& backend, std::uint32_t frames,
+                            std::uint32_t spp) {
     Scene scene = load_gltf(file, {});
     RenderSettings settings;
     settings.width = 24;
@@ -63,8 +65,8 @@ std::vector<Image> chain_of(const std::string& file, const std::string& backend,
 }
 
 std::vector<std::string> sequence(const std::string& scene, const std::string& output, const std::string& backend) {
-    return {"render",  scene, "-o",      output, "--size",    "24x18",   "--integrator", "restir",  "--max-depth", "1",
-            "--start", "0.9", "--fps",   "10",   "--backend", backend,   "--seed",       "5"};
+    return {"render", scene,     "-o",  output,  "--size", "24x18",     "--integrator", "restir", "--max-depth",
+            "1",      "--start", "0.9", "--fps", "10",     "--backend", backend,        "--seed", "5"};
 }
 
 void append(std::vector<std::string>& words, const std::vector<std::string>& more) {
@@ -115,8 +117,8 @@ TEST_CASE("A chain that has warmed up is nearer to the truth than one that begin
     const std::string scene = folder.file("lights.glb");
     REQUIRE(run_diptych(folder, {"generate", "many-lights", "--count", "2000", "-o", scene}).exit_code == 0);
     const auto picture_of = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words = {"render", scene, "-o",  folder.file("a.exr"), "--size", "64x48", "--max-depth",
-                                          "1"};
+        std::vector<std::string> words = {"render", scene,   "-o",          folder.file("a.exr"),
+                                          "--size", "64x48", "--max-depth", "1"};
         append(words, more);
         const ProcessResult result = run_diptych(folder, words);
         INFO(result.err);
@@ -138,8 +140,8 @@ TEST_CASE("Pictures of restir bear no standard errors and are no evidence for z"
     const std::string scene = generate_scene(folder, "cornell");
     for (const std::string name : {"a.exr", "b.exr"}) {
         const ProcessResult result =
-            run_diptych(folder, {"render", scene, "-o", folder.file(name), "--size", "16x16", "--spp", "4", "--integrator",
-                                 "restir", "--json", "--seed", name == "a.exr" ? "1" : "2"});
+            run_diptych(folder, {"render", scene, "-o", folder.file(name), "--size", "16x16", "--spp", "4",
+                                 "--integrator", "restir", "--json", "--seed", name == "a.exr" ? "1" : "2"});
         REQUIRE(result.exit_code == 0);
         const auto json = nlohmann::json::parse(result.out);
         CHECK(json.at("correlated") == true);

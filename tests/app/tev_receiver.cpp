@@ -64,7 +64,8 @@ void create(Reader& packet, std::map<std::string, ReceivedImage>& images) {
     image.width = packet.take<std::int32_t>();
     image.height = packet.take<std::int32_t>();
     image.channels = packet.texts(packet.take<std::int32_t>());
-    image.data.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * image.channels.size(),
+    image.data.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                          image.channels.size(),
                       std::numeric_limits<float>::quiet_NaN());
 }
 
@@ -95,7 +96,8 @@ void update(Reader& packet, std::map<std::string, ReceivedImage>& images) {
         for (int column = 0; column < width; ++column) {
             for (std::size_t c = 0; c < offsets.size(); ++c) {
                 const std::int64_t from = offsets[c] + strides[c] * (std::int64_t{row} * width + column);
-                const std::size_t to = static_cast<std::size_t>((y + row) * image.width + x + column) * offsets.size() + c;
+                const std::size_t to =
+                    static_cast<std::size_t>((y + row) * image.width + x + column) * offsets.size() + c;
                 image.data[to] = values.at(static_cast<std::size_t>(from));
             }
         }
@@ -112,7 +114,8 @@ TevReceiver::TevReceiver(int packets_until_hang_up) : packets_until_hang_up_(pac
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
     auto* const generic = reinterpret_cast<sockaddr*>(&address);
-    if (bind(listener_, generic, size) != 0 || ::listen(listener_, 1) != 0 || getsockname(listener_, generic, &size) != 0) {
+    if (bind(listener_, generic, size) != 0 || ::listen(listener_, 1) != 0 ||
+        getsockname(listener_, generic, &size) != 0) {
         throw std::runtime_error("no socket on the loopback");
     }
     port_ = ntohs(address.sin_port);

@@ -1,4 +1,5 @@
-// What tev does with its network protocol, as far as the tests need it: written from the protocol's description, not from our sender.
+// What tev does with its network protocol, as far as the tests need it: written from the protocol's description, not
+// from our sender.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,9 @@ using namespace diptych::tests;
 TEST_CASE("a command under validation ends with 1 if the layer had anything to say, and says how much", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const std::vector<std::string> arguments = {"render",    scene,    "-o",     folder.file("out.exr"), "--spp",       "1",
-                                                "--backend", "vulkan", "--size", "8",                    "--validation"};
+    const std::vector<std::string> arguments = {"render", scene, "-o",          folder.file("out.exr"),
+                                                "--spp",  "1",   "--backend",   "vulkan",
+                                                "--size", "8",   "--validation"};
     const ProcessResult silent = run_diptych(folder, arguments);
     INFO(silent.err);
     if (silent.exit_code == 3 || silent.err.find("is not installed") != std::string::npos) {
@@ -19,7 +20,8 @@ TEST_CASE("a command under validation ends with 1 if the layer had anything to s
     CHECK(silent.exit_code == 0);
     CHECK(silent.err.find("validation:") == std::string::npos);
 
-    // The layer's advice on performance always finds something; older and newer layers know its switch by different names.
+    // The layer's advice on performance always finds something; older and newer layers know its switch by different
+    // names.
     write_text(folder.file("vk_layer_settings.txt"),
                "khronos_validation.enables = VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT\n"
                "khronos_validation.validate_best_practices = true\n");

@@ -78,8 +78,7 @@ TEST_CASE("rotations turn at a constant rate, the short way, and are unit", "[an
     }
     // 350 degrees apart: 10 degrees the other way.
     const double far = 350 * 3.14159265358979 / 180;
-    const Channel around =
-        of(AnimatedProperty::rotation, Interpolation::linear, {0, 1}, numbers({turn(0), turn(far)}));
+    const Channel around = of(AnimatedProperty::rotation, Interpolation::linear, {0, 1}, numbers({turn(0), turn(far)}));
     const glm::dvec4 half = sample_channel(around, 0.5);
     const glm::dvec4 back(turn((far - 2 * 3.14159265358979) / 2));
     CHECK(std::min(distance(half, back), distance(half, -back)) < tiny);
@@ -97,7 +96,8 @@ TEST_CASE("a cubic spline through samples of a cubic is that cubic", "[animation
     std::vector<float> values;
     for (const float time : times) {
         const double x = static_cast<double>(time);
-        values.insert(values.end(), {static_cast<float>(slope(x)), static_cast<float>(p(x)), static_cast<float>(slope(x))});
+        values.insert(values.end(),
+                      {static_cast<float>(slope(x)), static_cast<float>(p(x)), static_cast<float>(slope(x))});
     }
     const Channel channel = of(AnimatedProperty::light_intensity, Interpolation::cubic_spline, times, values);
     for (double x = 0.5; x <= 3.25; x += 0.03125) {
@@ -108,8 +108,8 @@ TEST_CASE("a cubic spline through samples of a cubic is that cubic", "[animation
 
 TEST_CASE("in- and out-tangents of a cubic spline are told apart, and scaled by the keys' distance", "[animation]") {
     // Key: in-tangent, value, out-tangent. Formula of glTF 2.0, appendix C.5, in powers of t.
-    const Channel channel = of(AnimatedProperty::emissive_strength, Interpolation::cubic_spline, {1, 5},
-                               {100, 2, 0.5F, -0.25F, 3, 100});
+    const Channel channel =
+        of(AnimatedProperty::emissive_strength, Interpolation::cubic_spline, {1, 5}, {100, 2, 0.5F, -0.25F, 3, 100});
     for (const double seconds : {1.0, 1.5, 3.0, 4.75}) {
         const double t = (seconds - 1) / 4;
         const double from = 2 + t * t * (2 * t - 3) * 2 + 3 * t * t * (3 - 2 * t);

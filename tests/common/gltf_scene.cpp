@@ -52,15 +52,14 @@ Scene load_material(const std::string& material, const std::string& samplers = "
 TEST_CASE("node transforms compose in double, and instances share their mesh", "[gltf]") {
     GltfBuilder builder;
     const double s = std::sqrt(0.5);
-    const Scene scene = load_text(builder.text(
-        R"("scene":1,"scenes":[{"nodes":[]},{"nodes":[0]}],"nodes":[)"
-        R"({"name":"root","translation":[100000000.125,0,0],"children":[1]},)"
-        R"({"rotation":[0,0,)" +
-        std::to_string(s) + "," + std::to_string(s) +
-        R"(],"scale":[2,3,4],"children":[2,3]},)"
-        R"({"name":"leaf","translation":[1,1,1],"mesh":0},)"
-        R"({"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,5,1],"mesh":0}],)" +
-        triangle_meshes(builder)));
+    const Scene scene = load_text(builder.text(R"("scene":1,"scenes":[{"nodes":[]},{"nodes":[0]}],"nodes":[)"
+                                               R"({"name":"root","translation":[100000000.125,0,0],"children":[1]},)"
+                                               R"({"rotation":[0,0,)" +
+                                               std::to_string(s) + "," + std::to_string(s) +
+                                               R"(],"scale":[2,3,4],"children":[2,3]},)"
+                                               R"({"name":"leaf","translation":[1,1,1],"mesh":0},)"
+                                               R"({"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,5,1],"mesh":0}],)" +
+                                               triangle_meshes(builder)));
     REQUIRE(scene.instances.size() == 2);
     CHECK(scene.meshes.size() == 1);
     CHECK(scene.instances[0].name == "leaf");

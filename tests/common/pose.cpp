@@ -26,9 +26,10 @@ struct MovingFile {
     }
 
     std::string text() const {
-        return builder.text(R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes +
-                            R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"animations":[{"name":"a",)" +
-                            animation + "}]" + more);
+        return builder.text(
+            R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes +
+            R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"animations":[{"name":"a",)" + animation +
+            "}]" + more);
     }
 
     Scene load() const {
@@ -148,9 +149,10 @@ TEST_CASE("emission and intensity follow KHR_animation_pointer, and other pointe
                      pointer(1, "/materials/0/emissiveFactor") + "," +
                      pointer(0, "/extensions/KHR_lights_punctual/lights/0/intensity") + "," +
                      pointer(0, "/cameras/0/perspective/yfov") + "," + pointer(0, "/cameras/0/perspective/yfov") + "]";
-    file.more = R"(,"materials":[{"emissiveFactor":[1,1,1]}])"
-                R"(,"extensionsUsed":["KHR_lights_punctual","KHR_animation_pointer","KHR_materials_emissive_strength"])"
-                R"(,"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","color":[1,0.25,0],"intensity":3}]}})";
+    file.more =
+        R"(,"materials":[{"emissiveFactor":[1,1,1]}])"
+        R"(,"extensionsUsed":["KHR_lights_punctual","KHR_animation_pointer","KHR_materials_emissive_strength"])"
+        R"(,"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","color":[1,0.25,0],"intensity":3}]}})";
     Scene scene = file.load();
     REQUIRE(scene.warnings.size() == 1);
     CHECK_THAT(scene.warnings[0], Catch::Contains("/cameras/0/perspective/yfov"));
@@ -191,8 +193,8 @@ TEST_CASE("broken animations are refused, naming animation, channel and reason",
     const auto refused = [&](const std::string& animation, const std::string& object, const std::string& reason) {
         file.animation = animation;
         INFO(animation);
-        CHECK_THAT(file.refusal(), Catch::Contains("animations[0] (a)") && Catch::Contains(object) &&
-                                       Catch::Contains(reason));
+        CHECK_THAT(file.refusal(),
+                   Catch::Contains("animations[0] (a)") && Catch::Contains(object) && Catch::Contains(reason));
     };
     const auto times = [&](int input) {
         return R"("samplers":[{"input":)" + std::to_string(input) + R"(,"output":)" + std::to_string(good) +

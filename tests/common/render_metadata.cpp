@@ -8,7 +8,9 @@ using namespace diptych;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 RenderRequest request_of_everything() {
     RenderRequest request;
@@ -47,13 +49,18 @@ RenderRequest request_of_everything() {
 TEST_CASE("the repeating command holds every setting and survives a shell", "[render]") {
     const std::string command = repeat_command(request_of_everything(), 77);
     INFO(command);
-    CHECK(contains(command, "diptych render 'a scene'\\''s.gltf' --ignore-extension EXT_one --ignore-extension EXT_two -o out.exr "));
-    for (const char* part :
-         {"--backend vulkan", "--device 1", "--integrator direct", "--spp 77", "--size 640x480", "--max-depth 8",
-          "--seed 4294967295", "--brdf blinn-phong", "--sampler hammersley", "--sample-count 256", "--mis balance",
-          "--camera 'Front view'", "--env 0.1,0.2,0.3", "--env-scale 0.1", "--env-rotate -30", "--aperture 0.01",
-          "--eye 1,-2.5,3e-07", "--look-at 0,0.1,0", "--up 0,0,1", "--fov 33.5", "--view-height 4", "--sun -20,35.5,3",
-          "--focus 2.5", "--exposure -1.5", "--tonemap none", "--no-layers", "--generic"}) {
+    CHECK(contains(
+        command,
+        "diptych render 'a scene'\\''s.gltf' --ignore-extension EXT_one --ignore-extension EXT_two -o out.exr "));
+    for (const char* part : {"--backend vulkan",   "--device 1",         "--integrator direct",
+                             "--spp 77",           "--size 640x480",     "--max-depth 8",
+                             "--seed 4294967295",  "--brdf blinn-phong", "--sampler hammersley",
+                             "--sample-count 256", "--mis balance",      "--camera 'Front view'",
+                             "--env 0.1,0.2,0.3",  "--env-scale 0.1",    "--env-rotate -30",
+                             "--aperture 0.01",    "--eye 1,-2.5,3e-07", "--look-at 0,0.1,0",
+                             "--up 0,0,1",         "--fov 33.5",         "--view-height 4",
+                             "--sun -20,35.5,3",   "--focus 2.5",        "--exposure -1.5",
+                             "--tonemap none",     "--no-layers",        "--generic"}) {
         INFO(part);
         CHECK(contains(command, part));
     }

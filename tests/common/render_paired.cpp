@@ -104,11 +104,13 @@ TEST_CASE("every decision is in a path's signature, and tells where paths part",
     const shared::PathSummary whole = summary_of(path);
     CHECK(first_divergence(whole, whole) == shared::NONE);
     using Change = void (*)(shared::PathVertexRecord&);
-    const Change changes[] = {
-        [](auto& v) { v.instance += 1; }, [](auto& v) { v.geometry += 1; },
-        [](auto& v) { v.primitive += 1; }, [](auto& v) { v.light += 1; },
-        [](auto& v) { v.shadow = shared::SHADOW_BLOCKED; }, [](auto& v) { v.lobe = shared::LOBE_SPECULAR; },
-        [](auto& v) { v.roulette = shared::ROULETTE_KILLED; }};
+    const Change changes[] = {[](auto& v) { v.instance += 1; },
+                              [](auto& v) { v.geometry += 1; },
+                              [](auto& v) { v.primitive += 1; },
+                              [](auto& v) { v.light += 1; },
+                              [](auto& v) { v.shadow = shared::SHADOW_BLOCKED; },
+                              [](auto& v) { v.lobe = shared::LOBE_SPECULAR; },
+                              [](auto& v) { v.roulette = shared::ROULETTE_KILLED; }};
     for (const Change change : changes) {
         for (std::uint32_t at = 0; at < 3; ++at) {
             RecordedPath other = path;

@@ -59,7 +59,7 @@ public:
     mutable int looks = 0;
     double look_seconds = 0;
     bool noise = false;
-    double slow_down = 0;  // each sample takes longer than the one before by this share of the first
+    double slow_down = 0;         // each sample takes longer than the one before by this share of the first
     double slow_from = HUGE_VAL;  // clock from which the machine has half its speed
     std::vector<std::uint32_t> firsts;
     std::vector<std::uint32_t> counts;
@@ -157,7 +157,8 @@ TEST_CASE("an error target stops where the estimate meets it, at a count that ha
     REQUIRE(reports.back().relmse);
     CHECK(*reports.back().relmse <= 0.005);
     CHECK(std::isinf(reports.front().eta_seconds));  // nothing is known before 16 samples
-    CHECK(reports[reports.size() - 2].eta_seconds == Approx((200 - reports[reports.size() - 2].spp) * sample_seconds).epsilon(0.1));
+    CHECK(reports[reports.size() - 2].eta_seconds ==
+          Approx((200 - reports[reports.size() - 2].spp) * sample_seconds).epsilon(0.1));
     // Other limits still hold, and the first one met counts.
     FakeRenderer limited(sample_seconds);
     limited.noise = true;

@@ -20,7 +20,8 @@ TEST_CASE("Light samples that are NaN, infinite or negative are dropped and coun
 TEST_CASE("A NaN of a light sample survives weights, later bounces and roulette, to be counted") {
     const PackedScene broken = packed_with_broken_light(Integrator::path, 8, std::nanf(""));
     const FilmTotals totals = film_totals(render_cpu(broken, 8));
-    const FilmTotals direct = film_totals(render_cpu(packed_with_broken_light(Integrator::direct, 1, std::nanf("")), 8));
+    const FilmTotals direct =
+        film_totals(render_cpu(packed_with_broken_light(Integrator::direct, 1, std::nanf("")), 8));
     CHECK(totals.nonfinite > direct.nonfinite);  // each further vertex may meet it
     CHECK(totals.samples > 0);
 }

@@ -1,5 +1,5 @@
-// The Cornell box with one of its light's two triangles broken behind the importer's back: light samples of it are no radiance,
-// and all else is sound.
+// The Cornell box with one of its light's two triangles broken behind the importer's back: light samples of it are no
+// radiance, and all else is sound.
 #pragma once
 
 #include "render_fixture.h"
@@ -11,7 +11,8 @@ inline PackedScene packed_with_broken_light(Integrator integrator, std::uint32_t
     RenderSettings settings = statistical_settings(32, 24, integrator, max_depth);
     settings.standard_error = false;
     PackedScene packed = pack_scene(load_own_scene("cornell"), settings);
-    packed.emissive_triangles.at(0).radiance = shared::vec3(radiance, packed.emissive_triangles[0].radiance.y, radiance);
+    packed.emissive_triangles.at(0).radiance =
+        shared::vec3(radiance, packed.emissive_triangles[0].radiance.y, radiance);
     return packed;
 }
 
@@ -22,8 +23,9 @@ inline Film render_cpu(const PackedScene& packed, std::uint32_t spp) {
     return renderer->film();
 }
 
-/// What the film of a render of the broken light owes: samples dropped and counted, and nothing of them in what is kept.
-/// `dark` is the film of the same scene and seed where the broken triangle is black in the channels that were broken.
+/// What the film of a render of the broken light owes: samples dropped and counted, and nothing of them in what is
+/// kept. `dark` is the film of the same scene and seed where the broken triangle is black in the channels that were
+/// broken.
 inline void check_drops(const Film& broken, const Film& dark, std::uint32_t spp) {
     const FilmTotals totals = film_totals(broken);
     const std::uint64_t all = broken.pixels.size() * spp;

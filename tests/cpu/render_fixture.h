@@ -146,8 +146,7 @@ inline bool same_film(const Film& a, const Film& b) {
                 return false;
             }
         }
-        if (p.samples != q.samples || p.nonfinite != q.nonfinite || p.rays != q.rays ||
-            p.ray_wraps != q.ray_wraps) {
+        if (p.samples != q.samples || p.nonfinite != q.nonfinite || p.rays != q.rays || p.ray_wraps != q.ray_wraps) {
             return false;
         }
     }

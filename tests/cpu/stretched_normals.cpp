@@ -41,8 +41,8 @@ TEST_CASE("Normals of stretched, sheared and mirrored instances stay across thei
         scene.name = "slant";
         const int material = add_material(scene, diffuse_material(0.5F));
         add_object(scene, "square", {slanted_square(material)}, glm::dmat4(matrix));
-        const glm::dvec3 normal = glm::normalize(
-            glm::inverse(glm::transpose(matrix)) * glm::dvec3(1, 1, 0));  // its front, mirrored or not
+        const glm::dvec3 normal =
+            glm::normalize(glm::inverse(glm::transpose(matrix)) * glm::dvec3(1, 1, 0));  // its front, mirrored or not
         const glm::dvec3 sun = glm::normalize(normal + glm::dvec3(0.2, 0.3, 0.5));
         PunctualLight light;
         light.type = PunctualType::directional;

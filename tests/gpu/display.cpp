@@ -114,8 +114,7 @@ TEST_CASE("Radiance is shown as tonemap_image has it, by every tone map") {
         for (const float exposure : {0.0F, 2.5F}) {
             CAPTURE(tonemap_name(op), exposure);
             const Image expected = tonemapped(layers.color, op, exposure);
-            const Image shown =
-                display.show({.left = renderer.device_film(), .tonemap = op, .exposure_ev = exposure});
+            const Image shown = display.show({.left = renderer.device_film(), .tonemap = op, .exposure_ev = exposure});
             CHECK(worst(shown, [&](int x, int y) { return color_at(expected, x, y); }) < 1);
         }
     }

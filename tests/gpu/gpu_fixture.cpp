@@ -61,9 +61,9 @@ std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<s
     const PipelineLayout layout = make_pipeline_layout(gpu);
     const vk::raii::PipelineCache cache = open_pipeline_cache(gpu, {});
     const bool alpha = (packed.features & shared::FEATURE_ALPHA) != 0;
-    const TracePipeline pipeline = make_pipeline(
-        gpu, layout, cache, scene_shaders(test_shader_binary("trace_rays.rgen"), alpha),
-        {.features = packed.features, .groups = groups.groups.empty() ? 0U : 1U});
+    const TracePipeline pipeline =
+        make_pipeline(gpu, layout, cache, scene_shaders(test_shader_binary("trace_rays.rgen"), alpha),
+                      {.features = packed.features, .groups = groups.groups.empty() ? 0U : 1U});
     const Bindings bindings = make_bindings(gpu, layout, *top.structure, *top.structure, addresses, packed.constants);
     run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
         record_dispatch(commands, pipeline, layout, bindings, {}, static_cast<std::uint32_t>(rays.size()), 1);

@@ -129,8 +129,7 @@ std::map<std::string, Offsets> cpp_offsets() {
          {FIELD(RecordedRay, origin), FIELD(RecordedRay, t_max), FIELD(RecordedRay, direction),
           FIELD(RecordedRay, alpha_key)}},
         {"PathQuery", {FIELD(PathQuery, pixel), FIELD(PathQuery, sample_index)}},
-        {"PathSummary",
-         {FIELD(PathSummary, radiance), FIELD(PathSummary, vertices), FIELD(PathSummary, signature)}},
+        {"PathSummary", {FIELD(PathSummary, radiance), FIELD(PathSummary, vertices), FIELD(PathSummary, signature)}},
         {"PathVertexRecord",
          {FIELD(PathVertexRecord, direction), FIELD(PathVertexRecord, instance), FIELD(PathVertexRecord, position),
           FIELD(PathVertexRecord, geometry), FIELD(PathVertexRecord, normal), FIELD(PathVertexRecord, primitive),
@@ -178,9 +177,9 @@ TEST_CASE("Shared structs lie in memory as the shaders see them") {
 
 TEST_CASE("What the display pass is told lies in memory as its shader sees it") {
     const Layouts layouts = read_layouts(shader_binary("display.comp"));
-    CHECK(layouts.offsets.at("DisplayFilm") ==
-          Offsets{FIELD(DisplayFilm, pixels), FIELD(DisplayFilm, moments), FIELD(DisplayFilm, first_hits),
-                  FIELD(DisplayFilm, reservoirs), FIELD(DisplayFilm, size)});
+    CHECK(layouts.offsets.at("DisplayFilm") == Offsets{FIELD(DisplayFilm, pixels), FIELD(DisplayFilm, moments),
+                                                       FIELD(DisplayFilm, first_hits), FIELD(DisplayFilm, reservoirs),
+                                                       FIELD(DisplayFilm, size)});
     CHECK(layouts.offsets.at("Display") ==
           Offsets{FIELD(Display, left), FIELD(Display, right), FIELD(Display, size), FIELD(Display, divider),
                   FIELD(Display, layer), FIELD(Display, flags), FIELD(Display, tonemap), FIELD(Display, exposure),

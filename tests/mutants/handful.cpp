@@ -100,10 +100,9 @@ double worst_departure() {
 TEST_CASE("A handful of mutants fail closed forms that the right code passes") {
     mutants::chosen = -1;
     CHECK(worst_departure() < 4.5);
-    for (const std::string name :
-         {"DROP_COSINE", "ONE_SIDED_AS_TWO_SIDED", "NO_LIGHT_PICK_PDF", "ALIAS_SWAPPED",
-          "MIS_ONE_AT_LIGHT", "MIS_ONE_AT_HIT", "ROULETTE_NOT_DIVIDED", "EMISSION_TWICE", "SHORT_SHADOW_RAY",
-          "SHADOW_RAY_TO_WRONG_LIGHT", "DEPTH_OFF_BY_ONE"}) {
+    for (const std::string name : {"DROP_COSINE", "ONE_SIDED_AS_TWO_SIDED", "NO_LIGHT_PICK_PDF", "ALIAS_SWAPPED",
+                                   "MIS_ONE_AT_LIGHT", "MIS_ONE_AT_HIT", "ROULETTE_NOT_DIVIDED", "EMISSION_TWICE",
+                                   "SHORT_SHADOW_RAY", "SHADOW_RAY_TO_WRONG_LIGHT", "DEPTH_OFF_BY_ONE"}) {
         mutants::chosen = mutants::find(name.c_str());
         const double departure = worst_departure();
         std::printf("%-26s %.1f standard errors off\n", name.c_str(), departure);

@@ -15,7 +15,8 @@ dvec3 from_angles(double cosine, double angle) {
     return {sine * std::cos(angle), sine * std::sin(angle), cosine};
 }
 
-/// Integral over half vectors of weight(h) D(h), by the midpoint rule in the cosine's own distribution: dh D cos = dq dphi / 2 pi.
+/// Integral over half vectors of weight(h) D(h), by the midpoint rule in the cosine's own distribution: dh D cos = dq
+/// dphi / 2 pi.
 template <typename Weight>
 double over_half_vectors(Distribution model, double alpha, Weight weight) {
     const int n = 2000;
@@ -33,7 +34,8 @@ double over_half_vectors(Distribution model, double alpha, Weight weight) {
     return sum / n / m;
 }
 
-/// f cos over all i: the specular part over half vectors, the diffuse one over directions. Of the shape of the material alone.
+/// f cos over all i: the specular part over half vectors, the diffuse one over directions. Of the shape of the material
+/// alone.
 dvec3 albedo_by_quadrature(const Bsdf& bsdf, double cos_o) {
     const dvec3 n(0, 0, 1);
     const dvec3 o = from_angles(cos_o, 0.3);
@@ -86,7 +88,8 @@ TEST_CASE("half vectors are drawn with density D cos, which integrates to one", 
 }
 
 TEST_CASE("GGX's masking shows as much of the facets as the surface's own projection", "[oracle]") {
-    // Heitz 2014, eq. 21: (1 + Lambda) cos o = integral of [o.h] D(h); Lambda of Blinn-Phong is a fit, of Walter et al. and ours.
+    // Heitz 2014, eq. 21: (1 + Lambda) cos o = integral of [o.h] D(h); Lambda of Blinn-Phong is a fit, of Walter et al.
+    // and ours.
     for (const double alpha : {0.05, 0.3, 1.0}) {
         for (const double cosine : {0.1, 0.4, 0.9}) {
             const dvec3 o = from_angles(cosine, 0.2);
@@ -106,13 +109,14 @@ TEST_CASE("under a uniform sky a surface shows its directional albedo", "[oracle
         float roughness;
         double cosine;
     };
-    const std::vector<Case> cases = {{1, 0.1F, 0.9}, {1, 0.3F, 0.3}, {1, 0.7F, 0.6}, {0, 0.1F, 0.3},
+    const std::vector<Case> cases = {{1, 0.1F, 0.9}, {1, 0.3F, 0.3}, {1, 0.7F, 0.6},    {0, 0.1F, 0.3},
                                      {0, 0.5F, 0.9}, {0, 1, 0.2},    {0.5F, 0.4F, 0.15}};
     for (const Distribution model : {Distribution::ggx, Distribution::blinn_phong}) {
         for (const Case& c : cases) {
             Scene scene;
             const Material material = glossy({0.9F, 0.5F, 0.2F}, c.metallic, c.roughness);
-            add_object(scene, "floor", {quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, add_material(scene, material))});
+            add_object(scene, "floor",
+                       {quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, add_material(scene, material))});
             scene.environment = constant_sky(vec3(1));
             scene.cameras.push_back(narrow_camera(from_angles(c.cosine, 0.3), dvec3(0)));
             Bsdf bsdf;  // glTF 2.0 with an index of refraction of 1.5

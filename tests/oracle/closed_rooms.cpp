@@ -33,7 +33,10 @@ TEST_CASE("a closed diffuse furnace holds Le rho^k after k bounces", "[oracle]")
         INFO(name_of(mode));
         OracleSettings settings = small_settings(8, 8, 5);
         settings.mode = mode;
-        const Rendered picture = render(scene, settings, mode == oracle::Mode::hemisphere ? 2500 : mode == oracle::Mode::mis ? 800 : 32);
+        const Rendered picture = render(scene, settings,
+                                        mode == oracle::Mode::hemisphere ? 2500
+                                        : mode == oracle::Mode::mis      ? 800
+                                                                         : 32);
         for (unsigned k = 0; k <= 5; ++k) {
             INFO("depth " << k);
             const dvec3 truth = dvec3(1, 2, 3) * pow(dvec3(vec3(0.5F, 0.7F, 0.9F)), dvec3(k));

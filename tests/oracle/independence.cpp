@@ -20,8 +20,9 @@ const fs::path source_root = DIPTYCH_SOURCE_DIR;
 
 /// What an oracle's source must not see.
 const std::vector<std::string>& forbidden() {
-    static const std::vector<std::string> folders = {"shared_glsl_cpp", "common/pack", "common/render", "common/image",
-                                                     "cpu_ref/backend", "cpu_ref/embree_scene", "vk_backend"};
+    static const std::vector<std::string> folders = {"shared_glsl_cpp", "common/pack",     "common/render",
+                                                     "common/image",    "cpu_ref/backend", "cpu_ref/embree_scene",
+                                                     "vk_backend"};
     return folders;
 }
 
@@ -39,7 +40,8 @@ struct Source {
 
 std::vector<Source> oracle_sources() {
     std::vector<Source> sources;
-    for (const auto& entry : nlohmann::json::parse(read(fs::path(DIPTYCH_PROGRAM).parent_path() / "compile_commands.json"))) {
+    for (const auto& entry :
+         nlohmann::json::parse(read(fs::path(DIPTYCH_PROGRAM).parent_path() / "compile_commands.json"))) {
         const fs::path file = entry.at("file").get<std::string>();
         if (file.parent_path() == source_root / "cpu_ref/oracle") {
             sources.push_back({file, entry.at("directory").get<std::string>(), entry.at("command").get<std::string>()});

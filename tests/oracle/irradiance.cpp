@@ -13,7 +13,8 @@ const vec3 white(0.5F);
 /// A grey floor at y = 0 that the camera sees at the origin, and nothing else.
 Scene floor_scene() {
     Scene scene;
-    add_object(scene, "floor", {quad({-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}, add_material(scene, lambertian(white)))});
+    add_object(scene, "floor",
+               {quad({-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}, add_material(scene, lambertian(white)))});
     scene.cameras.push_back(narrow_camera({3, 0.4, 2}, {0, 0, 0}));
     return scene;
 }
@@ -33,7 +34,8 @@ std::vector<dvec3> square_points(double side, double y) {
 void check_irradiance(const Scene& scene, const dvec3& irradiance, double half_width_by_chance = 0.009,
                       std::uint64_t spp = 25000, double half_width_by_area = 0.003) {
     for (const oracle::Mode mode : all_modes()) {
-        const double half_width = mode == oracle::Mode::area || mode == oracle::Mode::mis ? half_width_by_area : half_width_by_chance;
+        const double half_width =
+            mode == oracle::Mode::area || mode == oracle::Mode::mis ? half_width_by_area : half_width_by_chance;
         INFO(name_of(mode));
         OracleSettings settings = small_settings(4, 4, 1);
         settings.mode = mode;

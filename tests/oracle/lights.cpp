@@ -76,7 +76,7 @@ TEST_CASE("of many punctual lights each counts once", "[oracle]") {
 
 TEST_CASE("normals of sheared and mirrored instances follow the surface", "[oracle]") {
     glm::dmat4 shear(1);
-    shear[0] = {1, 0.5, 0, 0};   // tilts the floor
+    shear[0] = {1, 0.5, 0, 0};     // tilts the floor
     shear[1] = {0.7, 2, -0.3, 0};  // and would tilt a normal that went along
     glm::dmat4 mirror(1);
     mirror[2][2] = -1.5;
@@ -121,8 +121,9 @@ TEST_CASE("coverage lets its share of the sky, of a lamp and of a shadow through
         scene.lights.clear();
         scene.materials[std::size_t(black)].emission = {3, 2, 1};
         scene.materials[std::size_t(black)].double_sided = true;
-        const double truth = polygon_irradiance({{-1.5, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1.5, 1, -1}}, dvec3(0), {0, 1, 0}) *
-                             (1 - passes) * 0.5 / pi;
+        const double truth =
+            polygon_irradiance({{-1.5, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1.5, 1, -1}}, dvec3(0), {0, 1, 0}) *
+            (1 - passes) * 0.5 / pi;
         OracleSettings settings = small_settings(4, 4, 1);
         for (const Mode mode : all_modes()) {
             INFO(name_of(mode));
@@ -152,7 +153,7 @@ TEST_CASE("an environment map lies and turns as described", "[oracle]") {
     CHECK(red({-quarter, -up, -quarter}) == Approx(20));
     CHECK(red({-quarter, 0, -quarter}) == Approx(11));
     CHECK(red({-0.001, 1, -0.001}) == Approx(2));  // held beyond the last centre
-    map.rotation = pi / 2;                          // seen from above, what stood at -z comes to -x
+    map.rotation = pi / 2;                         // seen from above, what stood at -z comes to -x
     CHECK(red({-quarter, up, quarter}) == Approx(2));
     CHECK(environment_radiance(map, normalize(dvec3(-quarter, up, quarter))).y == 0);
 }

@@ -135,10 +135,14 @@ const std::vector<oracle::Mode>& all_modes() {
 
 const char* name_of(oracle::Mode mode) {
     switch (mode) {
-    case oracle::Mode::mis: return "mis";
-    case oracle::Mode::bsdf: return "bsdf";
-    case oracle::Mode::hemisphere: return "hemisphere";
-    default: return "area";
+    case oracle::Mode::mis:
+        return "mis";
+    case oracle::Mode::bsdf:
+        return "bsdf";
+    case oracle::Mode::hemisphere:
+        return "hemisphere";
+    default:
+        return "area";
     }
 }
 

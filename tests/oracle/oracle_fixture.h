@@ -1,5 +1,5 @@
-// What tests of the oracle share: small scenes, renders of them, and checks of means that can fail both ways: by a difference, and by
-// a want of power.
+// What tests of the oracle share: small scenes, renders of them, and checks of means that can fail both ways: by a
+// difference, and by a want of power.
 #pragma once
 
 #include <functional>
@@ -39,14 +39,15 @@ struct Rendered {
 /// `by_depth` is always kept.
 Rendered render(const Scene& scene, OracleSettings settings, std::uint64_t spp, int threads = 0);
 
-/// Red, green and blue of `e` are `truth` within z_limit standard errors plus `systematic` of the truth, and 1.96 standard errors
-/// are at most `half_width` of it.
+/// Red, green and blue of `e` are `truth` within z_limit standard errors plus `systematic` of the truth, and 1.96
+/// standard errors are at most `half_width` of it.
 void check_mean(const Estimate& e, const dvec3& truth, double half_width = 0.003, double systematic = 1e-6);
 inline void check_mean(const Estimate& e, double truth, double half_width = 0.003, double systematic = 1e-6) {
     check_mean(e, dvec3(truth), half_width, systematic);
 }
 
-/// Two estimates from different random numbers agree, and their difference's 1.96 standard errors are at most `half_width`.
+/// Two estimates from different random numbers agree, and their difference's 1.96 standard errors are at most
+/// `half_width`.
 void check_equal(const Estimate& a, const Estimate& b, double half_width);
 
 /// Scatters nothing but diffusely: no Fresnel term, so that closed forms hold.

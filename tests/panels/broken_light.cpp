@@ -15,6 +15,7 @@ TEST_CASE("Both panels drop and count NaN and negative light samples, and agree 
         const Film vulkan = render_vulkan(packed, spp);
         check_drops(vulkan, dark, spp);
         const auto cpu = static_cast<double>(film_totals(render_cpu(packed, spp)).nonfinite);
-        CHECK(static_cast<double>(film_totals(vulkan).nonfinite) == Approx(cpu).epsilon(0.005));  // but for rays at edges
+        CHECK(static_cast<double>(film_totals(vulkan).nonfinite) ==
+              Approx(cpu).epsilon(0.005));  // but for rays at edges
     }
 }

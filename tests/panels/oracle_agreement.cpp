@@ -1,5 +1,6 @@
 // The CPU panel against the oracle, which shares no code with it: Welch's test of the image mean and of every tile. The
-// samples of a side are independent, so a mean's error is theirs, and its degrees of freedom are so many that t is normal.
+// samples of a side are independent, so a mean's error is theirs, and its degrees of freedom are so many that t is
+// normal.
 #include <algorithm>
 #include <cstdio>
 

@@ -42,14 +42,16 @@ PairedReport compare_paths(Pair& pair, const RenderSettings& settings, std::uint
 void print(const std::string& name, const RenderSettings& settings, const PairedReport& report) {
     double most = 0;
     for (const PairedBounce& bounce : report.bounces) {
-        most = std::max(most, static_cast<double>(bounce.parted) / static_cast<double>(std::max<std::uint64_t>(bounce.reached, 1)));
+        most = std::max(most, static_cast<double>(bounce.parted) /
+                                  static_cast<double>(std::max<std::uint64_t>(bounce.reached, 1)));
     }
     const auto& z = report.divergent_z;
-    std::printf("%-14s %-6s %8llu paths, parted %llu (at most %.1e a bounce), drifted %llu (worst %.1e), z %.2f %.2f %.2f: %s %s\n",
+    std::printf("%-14s %-6s %8llu paths, parted %llu (at most %.1e a bounce), drifted %llu (worst %.1e), z %.2f %.2f "
+                "%.2f: %s %s\n",
                 name.c_str(), name_of(settings.integrator), static_cast<unsigned long long>(report.paths),
                 static_cast<unsigned long long>(report.paths - report.alike), most,
-                static_cast<unsigned long long>(report.drifted), report.worst_relative, z[0], z[1],
-                z[2], name_of(report.verdict), report.reason.c_str());
+                static_cast<unsigned long long>(report.drifted), report.worst_relative, z[0], z[1], z[2],
+                name_of(report.verdict), report.reason.c_str());
 }
 
 /// A lamp with a shade so close before it that a shadow ray cut short by a hundredth would miss it.

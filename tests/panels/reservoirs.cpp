@@ -1,4 +1,5 @@
-// What restir keeps, pixel by pixel and pass by pass: with the same random numbers both panels choose the same light points.
+// What restir keeps, pixel by pixel and pass by pass: with the same random numbers both panels choose the same light
+// points.
 #include <cstdio>
 
 #include "../restir/chain_cases.h"
@@ -62,8 +63,8 @@ void check_alike(const ChainCase& c, std::uint32_t frames) {
         }
         const double share = static_cast<double>(same) / static_cast<double>(cpu[i].reservoirs.size());
         const std::uint32_t frame = cpu[i].step.pass.frame;
-        std::printf("%s, frame %u, %s: %.4f alike, %zu not empty\n", c.name.c_str(), frame, passes[cpu[i].step.place].c_str(),
-                    share, filled);
+        std::printf("%s, frame %u, %s: %.4f alike, %zu not empty\n", c.name.c_str(), frame,
+                    passes[cpu[i].step.place].c_str(), share, filled);
         INFO(c.name << ", frame " << frame << ", " << passes[cpu[i].step.place]);
         CHECK(share >= 0.995);
         CHECK(filled > 100);

@@ -11,7 +11,9 @@
 
 namespace diptych::tests {
 
-inline std::unique_ptr<Renderer> on_cpu(const PackedScene& packed) { return make_cpu_renderer(packed, 0); }
+inline std::unique_ptr<Renderer> on_cpu(const PackedScene& packed) {
+    return make_cpu_renderer(packed, 0);
+}
 
 inline Scene generated(const std::string& name, int count = 0) {
     GenerateOptions options;
@@ -32,7 +34,8 @@ inline ChainCase chain_case(const std::string& name, Scene scene) {
     return c;
 }
 
-/// A floor whose pixels see the lamp or do not, by turns: black slats stand between. Glossy, it shows the lamp's image through them.
+/// A floor whose pixels see the lamp or do not, by turns: black slats stand between. Glossy, it shows the lamp's image
+/// through them.
 inline Scene slats(bool glossy) {
     Scene scene;
     scene.name = "slats";
@@ -58,8 +61,8 @@ inline Scene slats(bool glossy) {
     return scene;
 }
 
-/// A floor that would be lit most by a lamp that no pixel sees, and is lit by a farther one of the same power: a reservoir's sum of weights
-/// tells whether its sample is visible.
+/// A floor that would be lit most by a lamp that no pixel sees, and is lit by a farther one of the same power: a
+/// reservoir's sum of weights tells whether its sample is visible.
 inline Scene hidden_lamp() {
     Scene scene;
     scene.name = "hidden lamp";
@@ -68,13 +71,15 @@ inline Scene hidden_lamp() {
     const int lamp = add_material(scene, make_emitter("lamp", glm::vec3(5)));
     add_object(scene, "room",
                {horizontal_square({0, 0, 0}, 2, true, floor), horizontal_square({-0.6F, 0.5F, 0}, 0.1F, false, lamp),
-                horizontal_square({-0.6F, 0.49F, 0}, 0.15F, false, black), horizontal_square({1.5F, 2, 0}, 0.1F, false, lamp)});
+                horizontal_square({-0.6F, 0.49F, 0}, 0.15F, false, black),
+                horizontal_square({1.5F, 2, 0}, 0.1F, false, lamp)});
     scene.cameras.push_back(make_camera("eye", {0, 0.4, 0.5}, {0, 0, 0}, 20));
     return scene;
 }
 
 /// `moving-light` with nothing moving but what one animation moves; a frame is 1/8 s. Of the switches only one.
-inline ChainCase moving_case(const std::string& name, const std::string& animation, double start, std::size_t channel = 0) {
+inline ChainCase moving_case(const std::string& name, const std::string& animation, double start,
+                             std::size_t channel = 0) {
     ChainCase c = chain_case(name, generated("moving-light"));
     std::vector<Animation> kept;
     for (const Animation& a : c.scene.animations) {
@@ -93,11 +98,10 @@ inline ChainCase moving_case(const std::string& name, const std::string& animati
 
 /// One thing at a time: a switch is thrown at frame 4.
 inline std::vector<ChainCase> moving_cases() {
-    std::vector<ChainCase> cases = {moving_case("moving occluder", "occluder", 0.5),
-                                    moving_case("light switched on", "switches", 0.5, 0),
-                                    moving_case("light switched off", "switches", 1.5, 1),
-                                    moving_case("moving emitter", "moving lamp", 0.5),
-                                    moving_case("moving camera", "camera", 0.5)};
+    std::vector<ChainCase> cases = {
+        moving_case("moving occluder", "occluder", 0.5), moving_case("light switched on", "switches", 0.5, 0),
+        moving_case("light switched off", "switches", 1.5, 1), moving_case("moving emitter", "moving lamp", 0.5),
+        moving_case("moving camera", "camera", 0.5)};
     cases.back().settings.camera = 1;
     return cases;
 }
@@ -110,7 +114,7 @@ inline std::string variant_name(const ResamplingSettings& s) {
 
 /// Every frame's mean against the reference's. |z| < 4.5: 6.8e-6 a frame.
 inline void check_frames(const ChainCase& c, const std::vector<std::uint32_t>& frames, double widest_percent,
-                  const ChainSize& size = {}, const MakeRenderer& make = on_cpu) {
+                         const ChainSize& size = {}, const MakeRenderer& make = on_cpu) {
     const auto means = run_chains(c, size, frames, make, 17);
     std::vector<double> reference;
     for (std::size_t i = 0; i < frames.size(); ++i) {

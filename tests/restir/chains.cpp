@@ -22,7 +22,9 @@ Scene posed(const ChainCase& c, std::uint32_t frame) {
     return scene;
 }
 
-bool moves(const ChainCase& c) { return c.seconds > 0 || c.orbit != 0; }
+bool moves(const ChainCase& c) {
+    return c.seconds > 0 || c.orbit != 0;
+}
 
 RenderSettings sized(RenderSettings settings, std::uint32_t side) {
     settings.width = static_cast<int>(side);

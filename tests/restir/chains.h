@@ -29,9 +29,10 @@ struct ChainSize {
     std::uint32_t copies = 8;  // a row and a column; each copy is one chain
 };
 
-/// Mean scattered radiance of every chain at each of `frames`, in order: an atlas of isolated copies of the view, so that every chain has
-/// its own random numbers (the unit of analysis is a chain). Emission seen directly is taken off, by a render of depth 0 with the same
-/// camera rays: it is the same in every integrator, and its noise would drown what is tested.
+/// Mean scattered radiance of every chain at each of `frames`, in order: an atlas of isolated copies of the view, so
+/// that every chain has its own random numbers (the unit of analysis is a chain). Emission seen directly is taken off,
+/// by a render of depth 0 with the same camera rays: it is the same in every integrator, and its noise would drown what
+/// is tested.
 std::vector<std::vector<double>> run_chains(const ChainCase& c, const ChainSize& size,
                                             const std::vector<std::uint32_t>& frames, const MakeRenderer& make,
                                             std::uint32_t seed);

@@ -1,4 +1,5 @@
-// ReSTIR against `path`, frame by frame: early frames, later ones, and scenes whose lights and occluders change under the reservoirs.
+// ReSTIR against `path`, frame by frame: early frames, later ones, and scenes whose lights and occluders change under
+// the reservoirs.
 #include "chain_cases.h"
 
 namespace diptych::tests {

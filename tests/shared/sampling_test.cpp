@@ -2,18 +2,18 @@
 #include "sampling.h"
 
 #include "catch.h"
-#include "stats/chi_square.h"
 #include "close.h"
 #include "frame.h"
 #include "ray_offset.h"
 #include "rng.h"
+#include "stats/chi_square.h"
 
 #include <cmath>
 
 using namespace diptych::shared;
 using diptych::chi_square_deviate;
-using diptych::tests::close;
 using diptych::deviate_limit;
+using diptych::tests::close;
 
 namespace {
 

@@ -2,9 +2,9 @@
 #include "triangle_sampling.h"
 
 #include "catch.h"
-#include "stats/chi_square.h"
 #include "rng.h"
 #include "sampling.h"
+#include "stats/chi_square.h"
 
 #include <cmath>
 
