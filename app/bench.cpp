@@ -18,7 +18,7 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* bench_examples = R"(Examples:
   diptych bench cornell.gltf --backend cpu
   diptych bench street.glb --backend vulkan --size 1920x1080 --integrators brdf,path --frames 20 --json
   diptych bench street.glb --backend vulkan --integrators direct,ris,restir --max-depth 1
@@ -26,7 +26,7 @@ Medians over the frames; restir's frames follow one another. The integrators tak
 
 constexpr std::uint32_t warm_up_frames = 2;
 
-struct Options {
+struct BenchOptions {
     RenderArguments arguments;
     std::vector<std::string> integrators{"brdf", "direct", "path"};
     std::uint32_t spp = 1;
@@ -60,7 +60,7 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-std::vector<Entry> make_entries(Options& options, const Scene& scene, StepLine& line) {
+std::vector<Entry> make_entries(BenchOptions& options, const Scene& scene, StepLine& line) {
     std::vector<Entry> entries;
     for (const std::string& name : options.integrators) {
         line.begin(name + ", building");
@@ -90,7 +90,7 @@ void measure(Entry& entry, std::uint32_t frame, std::uint32_t spp) {
 }
 
 /// The first frames of each warm up and do not count: two, since the first has none before it to reuse.
-void run_rounds(std::vector<Entry>& entries, const Options& options, StepLine& line) {
+void run_rounds(std::vector<Entry>& entries, const BenchOptions& options, StepLine& line) {
     for (Entry& entry : entries) {
         line.begin(fmt::format("{}, warming up", name_of(entry.integrator)));
         for (std::uint32_t frame = 0; frame < warm_up_frames; ++frame) {
@@ -119,7 +119,7 @@ void run_rounds(std::vector<Entry>& entries, const Options& options, StepLine& l
     }
 }
 
-std::vector<Figures> evaluate(const std::vector<Entry>& entries, const Options& options) {
+std::vector<Figures> evaluate(const std::vector<Entry>& entries, const BenchOptions& options) {
     const RenderSettings& settings = options.arguments.request.settings;
     const double pixels = static_cast<double>(settings.width) * settings.height;
     double brdf_seconds = 0;
@@ -160,8 +160,8 @@ nlohmann::ordered_json passes_to_json(const Entry& entry, std::uint32_t spp) {
     return json;
 }
 
-void print_text(const std::vector<Entry>& entries, const std::vector<Figures>& all, const RenderSettings& settings,
-                std::uint32_t spp) {
+void print_bench(const std::vector<Entry>& entries, const std::vector<Figures>& all, const RenderSettings& settings,
+                 std::uint32_t spp) {
     fmt::print("{} at {}x{}, {}\n", entries.front().renderer->backend(), settings.width, settings.height,
                entries.front().renderer->device());
     fmt::print("{:<10} {:>10} {:>12} {:>10} {:>12} {:>10} {:>10}\n", "integrator", "ms/frame", "Msamples/s", "Mray/s",
@@ -182,7 +182,7 @@ void print_text(const std::vector<Entry>& entries, const std::vector<Figures>& a
 }
 
 nlohmann::ordered_json to_json(const std::vector<Entry>& entries, const std::vector<Figures>& all,
-                               const Options& options) {
+                               const BenchOptions& options) {
     const RenderSettings& settings = options.arguments.request.settings;
     nlohmann::ordered_json json;
     json["scene"] = options.arguments.request.scene;
@@ -216,7 +216,7 @@ nlohmann::ordered_json to_json(const std::vector<Entry>& entries, const std::vec
     return json;
 }
 
-int run_bench(Options options) {
+int run_bench(BenchOptions options) {
     resolve_names(options.arguments);
     if (options.arguments.request.backend == "oracle") {
         throw Error("--backend oracle: bench measures the panels, cpu and vulkan");
@@ -236,7 +236,7 @@ int run_bench(Options options) {
     if (options.json) {
         print_json(to_json(entries, figures, options));
     } else {
-        print_text(entries, figures, options.arguments.request.settings, options.spp);
+        print_bench(entries, figures, options.arguments.request.settings, options.spp);
     }
     return exit_done;
 }
@@ -245,7 +245,7 @@ int run_bench(Options options) {
 
 void add_bench(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("bench", "Measure how fast a backend renders a scene");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchOptions>();
     command->add_option("scene", options->arguments.request.scene, ".gltf or .glb file")->required();
     command->add_option("--integrators", options->integrators, "Those to measure")
         ->delimiter(',')
@@ -261,7 +261,7 @@ void add_bench(CLI::App& app, Run& run) {
     add_scene_options(*command, options->arguments);
     add_backend_options(*command, options->arguments);
     command->add_flag("--json", options->json, "Results as JSON on stdout");
-    command->footer(examples);
+    command->footer(bench_examples);
     command->callback([options, &run] { run = [options] { return run_bench(*options); }; });
 }
 

@@ -20,7 +20,7 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* compare_examples = R"(Examples:
   diptych compare picture.exr reference.exr
   diptych compare cpu.exr vulkan.exr -o difference.png
   diptych compare cpu.exr vulkan.exr --max-z 4 --max-relmse 0.01
@@ -29,7 +29,7 @@ z is the difference of the means over its standard error, which EXR files carry 
 the two were rendered with different seeds. --minus takes something off both first: renders of --max-depth 0 with their seeds and
 samples leave the scattered light, without the noise of lamps that are seen directly. The PNG shows A, B, and a heatmap of their relative difference.)";
 
-struct Options {
+struct CompareOptions {
     std::string a;
     std::string b;
     std::vector<std::string> minus;  // empty, or one for each
@@ -55,7 +55,7 @@ float automatic_heat(const Image& heat) {
     return std::max(*nth, 1e-6F);
 }
 
-float write_figure(const Options& options, const LayeredImage& a, const LayeredImage& b) {
+float write_figure(const CompareOptions& options, const LayeredImage& a, const LayeredImage& b) {
     const ToneMap tonemap = tonemap_from_name(options.tonemap);
     const float exposure = static_cast<float>(options.exposure);
     const Image relative = relative_difference(a.color, b.color);
@@ -66,7 +66,7 @@ float write_figure(const Options& options, const LayeredImage& a, const LayeredI
 }
 
 /// Why the pictures fail the check that was asked for; empty where they pass.
-std::string failure(const Options& options, const Difference& difference) {
+std::string failure(const CompareOptions& options, const Difference& difference) {
     if ((options.max_z || options.max_relmse) && difference.nonfinite > 0) {
         return fmt::format("{} pixels are not finite", difference.nonfinite);
     }
@@ -117,7 +117,7 @@ void subtract(const std::string& path, const std::string& from, LayeredImage& im
     image.standard_error.reset();
 }
 
-int run_compare(const Options& options) {
+int run_compare(const CompareOptions& options) {
     if (!options.output.empty()) {
         check_writable(options.output);
         if (image_format(options.output) != ImageFormat::Png) {
@@ -183,7 +183,7 @@ int run_compare(const Options& options) {
 
 void add_compare(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("compare", "Say how far two images differ, and whether that is noise");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareOptions>();
     command->add_option("a", options->a, "Image")->required();
     command->add_option("b", options->b, "Image that it is held against")->required();
     command->add_option("--minus", options->minus, "Two images, taken off A and B before they are compared")
@@ -202,7 +202,7 @@ void add_compare(CLI::App& app, Run& run) {
     command->add_option("--max-relmse", options->max_relmse, "Exit 1 where relMSE is larger")
         ->check(non_negative_number());
     command->add_flag("--json", options->json, "Results as JSON on stdout");
-    command->footer(examples);
+    command->footer(compare_examples);
     command->callback([options, &run] { run = [options] { return run_compare(*options); }; });
 }
 

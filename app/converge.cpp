@@ -27,9 +27,9 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* default_size = "256";
+constexpr const char* default_converge_size = "256";
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* converge_examples = R"(Examples:
   diptych converge cornell.gltf -o report
   diptych converge scene.glb --methods cpu:path,vulkan:path,vulkan:restir --time 2 --size 640x360 -o report
   diptych converge cornell.gltf --methods cpu:path:independent,cpu:path:hammersley,cpu:path:sobol --spp-max 1024 -o samplers
@@ -236,7 +236,7 @@ private:
 
 int run_converge(ConvergeOptions options) {
     if (options.arguments.size.empty() && !reference_is_file(options)) {
-        options.arguments.size = default_size;
+        options.arguments.size = default_converge_size;
     }
     if (options.arguments.size.empty()) {
         const Image image = read_image(options.reference).color;
@@ -351,7 +351,7 @@ void add_converge(CLI::App& app, Run& run) {
                       "Run Vulkan's validation layers; exit 1 if they have anything to say");
     command->add_option("-o,--output", options->folder, "Folder of the results; index.html is the page")->required();
     command->add_flag("--json", options->json, "Results as JSON on stdout");
-    command->footer(examples);
+    command->footer(converge_examples);
     command->callback([options, command, &run] {
         options->command = typed(*command);
         run = [options] { return run_converge(*options); };

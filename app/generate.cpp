@@ -15,12 +15,12 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* generate_examples = R"(Examples:
   diptych generate --list
   diptych generate cornell -o cornell.gltf
   diptych generate many-lights -o street.glb --count 100000 --seed 7)";
 
-struct Options {
+struct GenerateArguments {
     std::string name;
     std::string output;
     GenerateOptions generate;
@@ -46,7 +46,7 @@ int list_scenes(bool json) {
     return exit_done;
 }
 
-int run_generate(const Options& options) {
+int run_generate(const GenerateArguments& options) {
     if (options.list) {
         return list_scenes(options.json);
     }
@@ -83,7 +83,7 @@ int run_generate(const Options& options) {
 
 void add_generate(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("generate", "Write one of our own scenes as glTF");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<GenerateArguments>();
     command->add_option("name", options->name, "Scene; see --list");
     command->add_option("-o,--output", options->output, "File to write: .gltf (with a .bin beside it) or .glb");
     CLI::Option* count = command->add_option("--count", options->generate.count, "many-lights: emitters")
@@ -93,7 +93,7 @@ void add_generate(CLI::App& app, Run& run) {
         command->add_option("--seed", options->generate.seed, "many-lights: which street")->capture_default_str();
     command->add_flag("--list", options->list, "Say which scenes there are");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
-    command->footer(examples);
+    command->footer(generate_examples);
     command->callback([options, count, seed, &run] {
         options->sets_street = count->count() > 0 || seed->count() > 0;
         run = [options] { return run_generate(*options); };

@@ -20,7 +20,7 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* info_examples = R"(Examples:
   diptych info scene.gltf
   diptych info scene.gltf --integrator brdf --brdf blinn-phong --json
   diptych info scene.gltf --backend vulkan --size 1920x1080
@@ -28,7 +28,7 @@ constexpr const char* examples = R"(Examples:
 What a scene needs depends on the integrator, the BRDF, the environment and the size, so the options of render apply.
 Bytes are what render holds with them: acceleration structures are built on the backend, to know their size.)";
 
-struct Options {
+struct InfoOptions {
     RenderArguments arguments;
     bool layers = true;
     bool devices = false;
@@ -137,7 +137,7 @@ std::string words(const nlohmann::ordered_json& list) {
     return text.empty() ? "nothing" : text;
 }
 
-void print_text(const nlohmann::ordered_json& json) {
+void print_info(const nlohmann::ordered_json& json) {
     const auto number = [&](const char* name) { return json.at(name).get<std::uint64_t>(); };
     fmt::print("{}\n", json.at("scene").get<std::string>());
     fmt::print("  triangles   {} stored in {} meshes, {} placed by {} instances\n", number("triangles"),
@@ -166,7 +166,7 @@ void print_text(const nlohmann::ordered_json& json) {
     part("acceleration structures", json.at("acceleration_structures"));
 }
 
-int run_info(Options options) {
+int run_info(InfoOptions options) {
     if (options.devices) {
         return print_devices(options.json);
     }
@@ -182,7 +182,7 @@ int run_info(Options options) {
     if (options.json) {
         print_json(json);
     } else {
-        print_text(json);
+        print_info(json);
     }
     return exit_done;
 }
@@ -191,7 +191,7 @@ int run_info(Options options) {
 
 void add_info(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("info", "Say what a scene holds and needs, or which devices there are");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<InfoOptions>();
     command->add_option("scene", options->arguments.request.scene, ".gltf or .glb file");
     command->add_flag("--devices", options->devices, "List the devices, and what each lacks");
     add_integrator_option(*command, options->arguments);
@@ -199,7 +199,7 @@ void add_info(CLI::App& app, Run& run) {
     add_backend_options(*command, options->arguments);
     command->add_flag("--layers,!--no-layers", options->layers, "Count the layers beside colour; on by default");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
-    command->footer(examples);
+    command->footer(info_examples);
     command->callback([options, &run] { run = [options] { return run_info(*options); }; });
 }
 

@@ -16,7 +16,7 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* program_examples = R"(Examples:
   diptych generate cornell -o cornell.gltf
   diptych render cornell.gltf -o cpu.exr --backend cpu --seed 1
   diptych render cornell.gltf -o vulkan.exr --backend vulkan --seed 2
@@ -37,7 +37,7 @@ int run_command(int argc, char** argv) {
     CLI::App app(
         "One glTF scene rendered twice, by Embree on the CPU and by Vulkan ray tracing, from one set of shaders.",
         "diptych");
-    app.footer(examples);
+    app.footer(program_examples);
     app.set_version_flag("--version", program_version());
     app.require_subcommand(1);
     Run run;

@@ -23,7 +23,7 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* render_examples = R"(Examples:
   diptych render scene.gltf -o picture.exr
   diptych render scene.glb -o picture.png --backend vulkan --time 10 --size 1920x1080 --tonemap aces
   diptych render scene.gltf -o clean.exr --target-error 1e-3 --time 600
@@ -39,7 +39,7 @@ file's metadata repeats it alone.
 EXR holds linear colour, standard error, albedo, normal and depth, with metadata that repeats the render: the command is
 in the attribute diptych:command. PNG is tone mapped; HDR is linear. Ctrl-C saves the work so far and exits with 130.)";
 
-struct Options {
+struct RenderOptions {
     RenderArguments arguments;
     CLI::Option* spp_option = nullptr;
     CLI::Option* layers_option = nullptr;
@@ -54,7 +54,7 @@ struct Options {
     bool json = false;
 };
 
-void check_options(Options& options) {
+void check_render_options(RenderOptions& options) {
     RenderRequest& request = options.arguments.request;
     RenderSettings& settings = request.settings;
     resolve_names(options.arguments);
@@ -103,7 +103,7 @@ void check_options(Options& options) {
     settings.first_hit_layers = exr && options.layers;
 }
 
-int run_still(const Options& options, const Scene& scene, LiveView* live) {
+int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) {
     const RenderRequest& request = options.arguments.request;
     if (moves(scene)) {
         report_warning(fmt::format("{}: its animations are not played, it is shown at rest: give --frames or --start",
@@ -125,8 +125,8 @@ int run_still(const Options& options, const Scene& scene, LiveView* live) {
     return picture.interrupted ? exit_interrupted : exit_done;
 }
 
-int run_render(Options options) {
-    check_options(options);
+int run_render(RenderOptions options) {
+    check_render_options(options);
     const std::unique_ptr<LiveView> live = options.live.empty() ? nullptr : std::make_unique<LiveView>(options.live);
     const Scene scene = prepare_scene(options.arguments);
     if (options.arguments.request.frames > 0) {
@@ -139,7 +139,7 @@ int run_render(Options options) {
 
 void add_render(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("render", "Render a glTF scene to an image");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderOptions>();
     RenderRequest& request = options->arguments.request;
     command->add_option("scene", request.scene, ".gltf or .glb file")->required();
     command->add_option("-o,--output", request.output, "Image to write: .exr, .png or .hdr")->required();
@@ -192,7 +192,7 @@ void add_render(CLI::App& app, Run& run) {
         "--live", options->live,
         "HOST:PORT of a running tev, to watch the picture grow in it; tev listens on 127.0.0.1:14158 by default");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
-    command->footer(examples);
+    command->footer(render_examples);
     command->callback([options, &run] { run = [options] { return run_render(*options); }; });
 }
 

@@ -15,7 +15,7 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* replay_examples = R"(Examples:
   diptych replay cornell.gltf --pixel 210,300 --sample 5
   diptych replay street.glb --pixel 12,40 --sample 0 --size 64x48 --seed 7 --integrator direct
   diptych replay cornell.gltf --pixel 210,300 --backends cpu --json
@@ -24,7 +24,7 @@ positions relative to the ray's length, directions and barycentrics absolutely; 
 Scene, size, seed and settings have to be those of the picture in question. --max-depth too: roulette does not depend
 on it, but the last vertex does.)";
 
-struct Options {
+struct ReplayOptions {
     RenderArguments arguments;
     PairArguments pair;
     std::vector<std::uint32_t> pixel;
@@ -34,7 +34,7 @@ struct Options {
     bool json = false;
 };
 
-void print_result(const Options& options, const Replay& replay, const shared::RenderConstants& constants) {
+void print_result(const ReplayOptions& options, const Replay& replay, const shared::RenderConstants& constants) {
     const RenderSettings& settings = options.arguments.request.settings;
     if (options.json) {
         nlohmann::ordered_json json;
@@ -58,7 +58,7 @@ void print_result(const Options& options, const Replay& replay, const shared::Re
     }
 }
 
-int run_replay(Options options) {
+int run_replay(ReplayOptions options) {
     RenderRequest& request = options.arguments.request;
     resolve_names(options.arguments);
     refuse_resampling("--integrator", options.arguments.request.settings.integrator, "replay");
@@ -92,7 +92,7 @@ int run_replay(Options options) {
 
 void add_replay(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("replay", "Trace one path again on both backends, vertex by vertex");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReplayOptions>();
     command->add_option("scene", options->arguments.request.scene, ".gltf or .glb file")->required();
     command->add_option("--pixel", options->pixel, "Column and row, from the top left")
         ->type_name("X,Y")
@@ -112,7 +112,7 @@ void add_replay(CLI::App& app, Run& run) {
     add_scene_options(*command, options->arguments);
     add_pair_options(*command, options->pair);
     command->add_flag("--json", options->json, "Results as JSON on stdout");
-    command->footer(examples);
+    command->footer(replay_examples);
     command->callback([options, &run] { run = [options] { return run_replay(*options); }; });
 }
 

@@ -17,14 +17,14 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* stability_examples = R"(Examples:
   diptych stability
   diptych stability --quick --backends cpu
   diptych stability --rows "GGX D,solid angle" -o stability
 Measures shared functions and small pictures at their extremes, on each backend, against double precision and closed forms. Exit code 1
 where an error passes its bound or a result is not a number.)";
 
-struct Options {
+struct StabilityOptions {
     PairArguments pair;
     std::vector<std::string> rows;
     std::string output;
@@ -62,7 +62,7 @@ std::vector<const stability::Case*> chosen_cases(const std::vector<std::string>&
     return chosen;
 }
 
-int run_stability(const Options& options) {
+int run_stability(const StabilityOptions& options) {
     check_pair(options.pair);
     const std::vector<const stability::Case*> cases = chosen_cases(options.rows);
     if (options.list) {
@@ -105,7 +105,7 @@ int run_stability(const Options& options) {
 
 void add_stability(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("stability", "Measure numerical errors at the extremes on this machine");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<StabilityOptions>();
     command->add_option("--rows", options->rows, "Only these rows of the table, comma-separated; see --list")
         ->delimiter(',');
     command->add_flag("--quick", options->quick, "Few points and samples of each range: half a minute, not minutes");
@@ -114,7 +114,7 @@ void add_stability(CLI::App& app, Run& run) {
                         "Folder for the table as CSV and JSON, and a plot (SVG) of each case that has a range");
     command->add_flag("--list", options->list, "Say which rows and cases there are");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
-    command->footer(examples);
+    command->footer(stability_examples);
     command->callback([options, &run] { run = [options] { return run_stability(*options); }; });
 }
 

@@ -21,9 +21,9 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* default_size = "128";
+constexpr const char* default_verify_size = "128";
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* verify_examples = R"(Examples:
   diptych verify cornell.gltf
   diptych verify cornell.gltf --backends cpu --integrators brdf,direct --against cpu/path --spp 256 -o figures
   diptych verify scene.glb --backends vulkan --against cpu --time 600 --require-pass --json
@@ -71,10 +71,10 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void check_options(VerifyOptions& options) {
+void check_verify_options(VerifyOptions& options) {
     resolve_frames(options);
     if (options.arguments.size.empty()) {
-        options.arguments.size = default_size;
+        options.arguments.size = default_verify_size;
     }
     // Which panels heed --device and --threads is plan_pairs' to say.
     RenderArguments names = options.arguments;
@@ -126,7 +126,7 @@ int verify_paths(const VerifyOptions& options) {
 }
 
 int run_verify(VerifyOptions options) {
-    check_options(options);
+    check_verify_options(options);
     if (options.paired) {
         return verify_paths(options);
     }
@@ -243,7 +243,7 @@ void add_verify(CLI::App& app, Run& run) {
     command->add_flag("--validation", request.validation, "Run Vulkan's validation layers");
     command->add_option("-o,--output", options->output, "Folder for a map and a histogram of each pair's p-values");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
-    command->footer(examples);
+    command->footer(verify_examples);
     command->callback([options, seed, &run] {
         options->seed_given = seed->count() > 0;
         run = [options] { return run_verify(*options); };

@@ -23,14 +23,14 @@ namespace diptych::app {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* view_examples = R"(Examples:
   diptych view scene.gltf
   diptych view scene.glb --panel split --integrator restir --env studio.hdr
   diptych view scene.glb --headless --frames 240 --size 1920x1080 --panel vulkan -o last.png
 The left mouse button orbits, the middle one pans, the wheel goes nearer; WASD and QE fly; F1 shows all keys.
 --headless needs no display: it orbits for half of the frames, rests for the others, and prints how long they took.)";
 
-struct Options {
+struct ViewOptions {
     RenderArguments arguments;
     std::string panel = "split";
     std::string device;  // kept from the request until its names are resolved: it goes with either panel
@@ -49,7 +49,7 @@ struct Options {
     std::vector<CLI::Option*> window_options;
 };
 
-/// Options that mean nothing to the kind of view.
+/// ViewOptions that mean nothing to the kind of view.
 void refuse_given(const std::vector<CLI::Option*>& options, const char* reason) {
     for (const CLI::Option* option : options) {
         if (option->count() > 0) {
@@ -58,7 +58,7 @@ void refuse_given(const std::vector<CLI::Option*>& options, const char* reason) 
     }
 }
 
-void check_options(Options& options) {
+void check_view_options(ViewOptions& options) {
     RenderRequest& request = options.arguments.request;
     if (options.arguments.size.empty()) {
         options.arguments.size = "1280x720";
@@ -99,7 +99,7 @@ void require_display() {
 #endif
 }
 
-int show(const Options& options, ShownPanel panel, LoadedScene scene) {
+int show(const ViewOptions& options, ShownPanel panel, LoadedScene scene) {
 #if DIPTYCH_VIEW
     WindowOptions window;
     window.panel = panel;
@@ -119,8 +119,8 @@ int show(const Options& options, ShownPanel panel, LoadedScene scene) {
 #endif
 }
 
-int run_view(Options options) {
-    check_options(options);
+int run_view(ViewOptions options) {
+    check_view_options(options);
     const ShownPanel panel = shown_panel_from_name(options.panel);
     if (!options.headless) {
         require_display();
@@ -145,7 +145,7 @@ int run_view(Options options) {
 
 void add_view(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("view", "Look at a scene in a window, rendered while you move");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ViewOptions>();
     RenderRequest& request = options->arguments.request;
     command->add_option("scene", request.scene, ".gltf or .glb file")->required();
     command->add_option("--panel", options->panel, "vulkan, cpu, split or difference")->capture_default_str();
@@ -185,7 +185,7 @@ void add_view(CLI::App& app, Run& run) {
     request.tonemap = "aces";
     command->add_option("--tonemap", request.tonemap, "none, exponential, uncharted2, aces or pbr-neutral")
         ->capture_default_str();
-    command->footer(examples);
+    command->footer(view_examples);
     command->callback([options, &run] { run = [options] { return run_view(*options); }; });
 }
 

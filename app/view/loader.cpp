@@ -76,6 +76,8 @@ void SceneLoader::watch(const LoadedScene& loaded) {
     watched_ = loaded.files;
     stamps_ = loaded.stamps;
     changing_.clear();
+    unwatched_ = false;
+    ++watches_;
     generation_ = std::max(generation_, loaded.generation);
 }
 
@@ -94,8 +96,16 @@ std::string SceneLoader::loading() const {
     return loading_;
 }
 
-bool SceneLoader::files_changed() {
-    std::vector<FileStamp> now = stamps_of(watched_);
+/// Looks without the lock: a file on a slow disk keeps nobody waiting.
+bool SceneLoader::files_changed(std::unique_lock<std::mutex>& lock) {
+    const std::vector<std::filesystem::path> files = watched_;
+    const std::uint64_t watch = watches_;
+    lock.unlock();
+    std::vector<FileStamp> now = stamps_of(files);
+    lock.lock();
+    if (wanted_ || watch != watches_) {
+        return false;  // of what is shown no more
+    }
     if (now == stamps_) {
         changing_.clear();
         return false;
@@ -113,7 +123,7 @@ void SceneLoader::run() {
     std::unique_lock lock(mutex_);
     while (!stop_) {
         wake_.wait_for(lock, between_looks, [&] { return stop_ || wanted_; });
-        if (!stop_ && !wanted_ && files_changed()) {
+        if (!stop_ && !wanted_ && !unwatched_ && files_changed(lock)) {
             wanted_ = watched_request_;
             reload_ = true;
         }
@@ -139,6 +149,7 @@ void SceneLoader::run() {
         }
         if (loaded) {
             loaded_ = std::move(loaded);
+            unwatched_ = true;
         } else {
             error_ = error;
         }

@@ -338,13 +338,14 @@ RecordedPath PanelEngine::record_path(shared::PathQuery query, std::uint32_t see
 }
 
 KeptFilm PanelEngine::film() {
-    if (!renderer_ || !applied_ || samples_ == 0) {
+    if (!has_picture()) {
         throw Error("there is no picture yet");
     }
     KeptFilm kept;
     kept.film = renderer_->film();
     kept.request = view_request(job_->state, *job_->scene);
     kept.request.backend = shot_.backend;
+    kept.camera = job_->state.camera;
     kept.request.settings = settings();
     kept.request.settings.moves = false;  // what a renderer is told, not what is asked for
     const FilmTotals totals = film_totals(kept.film);

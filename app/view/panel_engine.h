@@ -39,6 +39,8 @@ public:
         return job_ && !job_->paused && renderer_ && shot_.error.empty() && samples_left() > 0;
     }
 
+    bool has_picture() const { return renderer_ && applied_ && samples_ > 0; }
+
     /// Whether the job is one of many that follow one another, and has shown nothing yet.
     bool owes_first_sample() const { return wants_samples() && job_->moving && samples_ == 0; }
 

@@ -1,5 +1,6 @@
 #include "view/panel_worker.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "error.h"
@@ -42,45 +43,52 @@ void PanelWorker::on_shot(std::function<void()> hook) {
     hook_ = std::move(hook);
 }
 
-void PanelWorker::request(std::function<void(PanelEngine*)> task) {
+void PanelWorker::request(Question question) {
     {
         const std::lock_guard lock(mutex_);
-        requests_.push_back(std::move(task));
+        requests_.push_back(std::move(question));
     }
     wake_.notify_one();
 }
 
 namespace {
 
-/// A task for the engine, and the future of what it gives.
-template <class Result, class Ask>
-std::pair<std::function<void(PanelEngine*)>, std::future<Result>> answered(const Ask& ask) {
+/// A question that is answered once `ready`, and the future of the answer.
+template <class Result, class Ready, class Ask>
+auto answered(const Ready& ready, const Ask& ask) {
     const auto promise = std::make_shared<std::promise<Result>>();
-    const auto task = [promise, ask](PanelEngine* engine) {
+    const auto question = [promise, ready, ask](PanelEngine* engine) {
         try {
             if (engine == nullptr) {
                 throw Error("the panel has been closed");
+            }
+            if (!ready(*engine)) {
+                return false;
             }
             promise->set_value(ask(*engine));
         } catch (...) {
             promise->set_exception(std::current_exception());
         }
+        return true;
     };
-    return {task, promise->get_future()};
+    return std::pair(question, promise->get_future());
 }
 
 }  // namespace
 
 std::future<RecordedPath> PanelWorker::record_path(const shared::PathQuery& query, std::uint32_t seed) {
-    auto [task, future] =
-        answered<RecordedPath>([query, seed](PanelEngine& engine) { return engine.record_path(query, seed); });
-    request(std::move(task));
+    auto [question, future] =
+        answered<RecordedPath>([](const PanelEngine&) { return true; },
+                               [query, seed](PanelEngine& engine) { return engine.record_path(query, seed); });
+    request(std::move(question));
     return std::move(future);
 }
 
 std::future<KeptFilm> PanelWorker::film() {
-    auto [task, future] = answered<KeptFilm>([](PanelEngine& engine) { return engine.film(); });
-    request(std::move(task));
+    auto [question, future] =
+        answered<KeptFilm>([](const PanelEngine& engine) { return engine.has_picture() || !engine.wants_samples(); },
+                           [](PanelEngine& engine) { return engine.film(); });
+    request(std::move(question));
     return std::move(future);
 }
 
@@ -116,8 +124,8 @@ void PanelWorker::run(RendererFactory factory) {
         auto requests = std::exchange(requests_, {});
         if (stop_) {
             lock.unlock();
-            for (const auto& task : requests) {
-                task(nullptr);
+            for (const Question& question : requests) {
+                question(nullptr);
             }
             return;
         }
@@ -135,10 +143,11 @@ void PanelWorker::run(RendererFactory factory) {
         if (job) {
             engine.apply(*job);
         }
-        for (const auto& task : requests) {
-            task(&engine);
-        }
+        const auto unanswered = std::remove_if(requests.begin(), requests.end(),
+                                               [&](const Question& question) { return question(&engine); });
+        requests.erase(unanswered, requests.end());
         lock.lock();
+        requests_.insert(requests_.begin(), requests.begin(), requests.end());
         if (!engine.wants_samples() || stop_) {
             continue;
         }

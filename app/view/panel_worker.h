@@ -68,6 +68,7 @@ struct PanelShot {
 struct KeptFilm {
     Film film;
     RenderRequest request;  // repeats it, viewpoint included
+    Camera camera;          // the same viewpoint
     RenderOutcome outcome;
 };
 
@@ -96,7 +97,7 @@ public:
     /// Between two samples; the film stays as it is. Pixels count in the full picture: of a preview it is the one that
     /// covers them. The futures throw Error where there is no renderer, or it keeps no record.
     std::future<RecordedPath> record_path(const shared::PathQuery& query, std::uint32_t seed);
-    /// The film as it is.
+    /// The film as it is; of the newest job, once it has a sample. Error where none is coming.
     std::future<KeptFilm> film();
 
     /// Goes on with a renderer made anew by this factory, after a lost device; the last film is shown until there is
@@ -107,16 +108,19 @@ public:
 
 private:
     void run(RendererFactory factory);
-    void request(std::function<void(PanelEngine*)> task);
+    /// What the engine is asked; false where it can answer only after its next sample. Null: there is no engine any
+    /// more.
+    using Question = std::function<bool(PanelEngine*)>;
+    void request(Question question);
 
     const std::string backend_;
     const std::uint32_t seed_offset_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::optional<ViewJob> waiting_;
-    std::optional<RenderedState> taken_;                       // of the job at hand
-    std::vector<std::function<void(PanelEngine*)>> requests_;  // null: there is no engine any more
-    std::optional<RendererFactory> factory_;                   // for the thread to take
+    std::optional<RenderedState> taken_;  // of the job at hand
+    std::vector<Question> requests_;
+    std::optional<RendererFactory> factory_;  // for the thread to take
     std::function<void()> hook_;
     std::shared_ptr<const PanelShot> shot_ = std::make_shared<PanelShot>();
     std::atomic<bool> cancel_ = false;

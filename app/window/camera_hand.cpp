@@ -90,11 +90,11 @@ void CameraHand::update(const HandInput& input, const LoadedScene& scene, ViewSt
     }
 }
 
-bool focus_at(const glm::dvec2& point, const PanelShot& shot, ViewState& state) {
-    if (shot.film == nullptr || shot.film->first_hits.empty()) {
+bool focus_at(const glm::dvec2& point, const KeptFilm& picture, ViewState& state) {
+    const Film& film = picture.film;
+    if (film.first_hits.empty()) {
         return false;
     }
-    const Film& film = *shot.film;
     const int x = std::clamp(static_cast<int>(point.x * film.width), 0, film.width - 1);
     const int y = std::clamp(static_cast<int>(point.y * film.height), 0, film.height - 1);
     const double depth =
@@ -105,7 +105,7 @@ bool focus_at(const glm::dvec2& point, const PanelShot& shot, ViewState& state) 
         return false;
     }
     const double aspect = static_cast<double>(film.width) / film.height;
-    const glm::dvec3 seen = point_seen(shot.state.camera, point, aspect, depth);
+    const glm::dvec3 seen = point_seen(picture.camera, point, aspect, depth);
     if (!focus_on(state.rendered.camera, seen)) {
         return false;
     }

@@ -9,7 +9,7 @@
 
 namespace diptych::app {
 
-struct PanelShot;
+struct KeptFilm;
 
 /// What of a frame's input is the camera's, and not the interface's.
 struct HandInput {
@@ -55,8 +55,8 @@ private:
     double still_ = 1;  // seconds since the wheel turned
 };
 
-/// Sets focus and pivot to what the newest film saw at that point of the window, in [0, 1]^2; false where it saw
+/// Sets focus and pivot to what the picture shows at that point of the window, in [0, 1]^2; false where that is
 /// nothing.
-bool focus_at(const glm::dvec2& point, const PanelShot& shot, ViewState& state);
+bool focus_at(const glm::dvec2& point, const KeptFilm& picture, ViewState& state);
 
 }  // namespace diptych::app

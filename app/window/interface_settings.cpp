@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/gtc/constants.hpp>
 
 #include "scene/default_camera.h"
@@ -16,8 +17,12 @@ namespace {
 void draw_sampling(const Theme& theme, RenderSettings& settings) {
     slider(theme, "Depth", settings.max_depth, 0, 32, "Scattering events at most; 1 is emission and direct light");
     choice(theme, "BRDF", {"GGX", "Blinn-Phong"}, settings.brdf, "Microfacets of metallic-roughness materials");
-    choice(theme, "Sampler", {"independent", "Hammersley", "Sobol'"}, settings.sampler,
-           "Where random numbers come from");
+    int sampler = settings.sampler == SamplerKind::sobol ? 1 : 0;
+    // Not Hammersley's points: they are laid out for a number of samples that is known beforehand.
+    const std::array<const char*, 2> samplers = {"independent", "Sobol'"};
+    if (choice(theme, "Sampler", samplers, sampler, "Where random numbers come from")) {
+        settings.sampler = sampler == 1 ? SamplerKind::sobol : SamplerKind::independent;
+    }
     if (settings.integrator == Integrator::path) {
         choice(theme, "MIS", {"power", "balance"}, settings.mis, "Weights between light and material sampling");
     }

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <optional>
 #include <set>
@@ -74,6 +75,8 @@ private:
     Legend legend_;
     WindowInput input_;
     FilmSaver saver_;
+    std::future<KeptFilm> focus_film_;  // F was pressed: its depth under the pointer is wanted
+    glm::dvec2 focus_point_{0};
     std::set<int> chords_;  // keys last pressed with Ctrl: one that is let go after Ctrl does not fly
     double last_frame_ = 0;
     double frame_seconds_ = 0;  // averaged

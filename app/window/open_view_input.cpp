@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -93,10 +94,8 @@ void OpenView::grant_wishes() {
         loop_->show_camera(state().rendered.request.settings.camera);
     }
     if (wishes.focus) {
-        const glm::dvec2 point = input_.cursor / glm::dvec2(std::max(input_.width, 1), std::max(input_.height, 1));
-        if (!focus_at(point, *loop_->shot(main_panel()), state())) {
-            say("nothing to focus on under the pointer");
-        }
+        focus_point_ = input_.cursor / glm::dvec2(std::max(input_.width, 1), std::max(input_.height, 1));
+        focus_film_ = loop_->worker(main_panel())->film();
     }
     if (wishes.copy_command) {
         const std::string file = std::filesystem::path(loop_->scene().request.scene).stem().string() + ".exr";
@@ -147,6 +146,13 @@ void OpenView::take_answers() {
                                 {"error", replay_.error()}});
     }
     try {
+        if (focus_film_.valid() && focus_film_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+            if (focus_at(focus_point_, focus_film_.get(), state())) {
+                log_.write("focused", {{"distance", state().rendered.camera.focus_distance}});
+            } else {
+                say("nothing to focus on under the pointer");
+            }
+        }
         if (const std::optional<std::filesystem::path> saved = saver_.save()) {
             say("saved " + saved->string());
             log_.write("saved", {{"file", saved->string()}});

@@ -130,3 +130,23 @@ TEST_CASE("A scene is loaded again once its files have changed and hold still", 
     std::this_thread::sleep_for(std::chrono::milliseconds(800));
     CHECK(!loader.take_error());
 }
+
+TEST_CASE("A scene that was opened is not overwritten by the one before, whose files change", "[view]") {
+    const Folder folder;
+    const fs::path before = folder.path / "before.gltf";
+    const fs::path after = folder.path / "after.gltf";
+    write_gltf(generate_scene("cornell").scene, before);
+    write_gltf(generate_scene("furnace").scene, after);
+    SceneLoader loader;
+    loader.watch(load_scene(request_of(before), 1));
+    loader.open(request_of(after));
+    const LoadedScene opened = await_scene(loader);
+    touch(before);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+    CHECK(!loader.take_scene());
+    loader.watch(opened);
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    CHECK(!loader.take_scene());
+    touch(after);
+    CHECK(await_scene(loader).request.scene == after.string());
+}

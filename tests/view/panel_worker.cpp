@@ -115,6 +115,20 @@ TEST_CASE("A panel at rest adds to the picture, and paused it does not", "[view]
     CHECK(changes(*script) == std::vector<std::string>{"make"});
 }
 
+TEST_CASE("A film asked for right after a change is that of the change", "[view]") {
+    const auto script = std::make_shared<Script>();
+    PanelWorker worker("fake", fake_factory(script));
+    CHECK_THROWS_AS(worker.film().get(), Error);  // none is coming
+    ViewJob job = job_of(small_scene(), 1);
+    for (job.version = 1; job.version <= 20; ++job.version) {
+        job.state.camera.focus_distance = static_cast<double>(job.version);
+        worker.post(job);
+        const KeptFilm kept = worker.film().get();
+        CHECK(kept.outcome.spp >= 1);
+        CHECK(kept.camera.focus_distance == static_cast<double>(job.version));
+    }
+}
+
 TEST_CASE("Moving shows previews, rest the whole picture", "[view]") {
     const auto script = std::make_shared<Script>();
     PanelWorker worker("fake", fake_factory(script));

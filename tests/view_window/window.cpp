@@ -63,8 +63,11 @@ TEST_CASE("a view is opened, orbited, flown, switched, resized, saved and closed
         view.key("ctrl+shift+s");
         return read_image(view.await("saved")["file"].get<std::string>());
     };
-    const auto picture_after = [&](const std::vector<std::string>& deeds) {
+    const auto picture_after = [&](const std::vector<std::string>& deeds, const std::string& answer = "") {
         display.hand(deeds);
+        if (!answer.empty()) {
+            view.await(answer);
+        }
         const auto follows = [&](const Event& event) { return event["version"] > before["version"]; };
         before = view.last("applied", follows);
         view.await("spp", [&](const Event& event) { return event["version"] == before["version"]; });
@@ -77,7 +80,7 @@ TEST_CASE("a view is opened, orbited, flown, switched, resized, saved and closed
     const LayeredImage rolled =
         picture_after({"mousemove", "320", "250", "sleep", "0.2", "click", "4", "sleep", "0.1", "click", "4"});
     const LayeredImage flown =
-        picture_after({"keydown", "w", "sleep", "0.3", "keyup", "w", "sleep", "0.1", "key", "f"});
+        picture_after({"keydown", "w", "sleep", "0.3", "keyup", "w", "sleep", "0.1", "key", "f"}, "focused");
     CHECK(farthest(rolled) < 0.95F * farthest(afar));
     CHECK(farthest(flown) < 0.99F * farthest(rolled));
     CHECK(rolled.metadata.at("command").find("--focus") == std::string::npos);
