@@ -120,6 +120,19 @@ Measured measure_lamp_height(Backend& backend, double height, Effort effort) {
     return judge_mean(film, 0.5 / 3.14159265358979 * square_irradiance(0.5, 1));
 }
 
+/// Below the middle of a square lamp as wide as it is high, a metre; the floor reaches so far, and farther on one side.
+Measured measure_floor_width(Backend& backend, double width, Effort effort) {
+    Scene scene;
+    scene.name = "wide floor";
+    const int grey = add_material(scene, diffuse(0.5F));
+    const int lamp = add_material(scene, make_emitter("lamp", glm::vec3(1)));
+    add_object(scene, "floor", {level_square(dvec3(0.3, 0, -0.2) * width, width, true, grey)});
+    add_object(scene, "lamp", {level_square({0, 1, 0}, 0.5, false, lamp)});
+    add_camera(scene, {0.9, 0.6, 0.3}, dvec3(0), 1e-3);
+    const Film film = render(backend, scene, settings_of(8, 8, 1), effort == Effort::quick ? 1024 : 65536);
+    return judge_mean(film, 0.5 / 3.14159265358979 * square_irradiance(0.5, 1));
+}
+
 /// Inside a closed black room under a bright sky: whatever is seen came through a seam.
 Measured count_leaks(Backend& backend, const Primitive& walls, const dvec3& eye, const dvec3& target, Effort effort,
                      std::uint32_t depth) {
@@ -269,6 +282,12 @@ void add_ray_cases(std::vector<Case>& cases) {
                      1e-5,
                      "relative",
                      measure_distance});
+    cases.push_back({"huge coordinates",
+                     "a lamp above a floor of two triangles",
+                     {"width", 10, 1e7, true, 2, 7},
+                     3e-3,
+                     "relative",
+                     measure_floor_width});
     cases.push_back({"huge coordinates",
                      "a furnace whose vertices are far from their origin",
                      {"offset", 1, 1e5, true, 2, 6},

@@ -1,6 +1,8 @@
 #include <cmath>
+#include <optional>
 
 #include "compat.h"
+#include "pack/cut_triangles.h"
 #include "pack/pack_parts.h"
 
 namespace diptych {
@@ -34,20 +36,44 @@ glm::dvec3 center_of(const Mesh& mesh) {
     return MUTANT(MESH_NOT_CENTRED, far, false) ? glm::dvec3(glm::vec3(middle)) : glm::dvec3(0);
 }
 
+/// A mesh cut about the eye, and where that is in the mesh's space.
+struct NearMesh {
+    Mesh mesh;
+    glm::dvec3 eye;
+};
+
+/// Of a mesh that stands in one place for good: others are near the eye here and far there.
+std::optional<NearMesh> near_mesh(const Mesh& mesh, const std::vector<const Instance*>& users,
+                                  const glm::dvec3& origin) {
+    if (users.size() != 1 || users.front()->node != none) {
+        return std::nullopt;
+    }
+    const glm::dmat4& placed = users.front()->object_to_world;
+    const glm::dvec3 eye = glm::inverse(glm::dmat3(placed)) * (origin - glm::dvec3(placed[3]));
+    if (!std::isfinite(eye.x + eye.y + eye.z)) {
+        return std::nullopt;
+    }
+    std::optional<Mesh> cut =
+        MUTANT(TRIANGLES_NOT_CUT, cut_near_triangles(mesh, eye, glm::dmat3(placed)), std::optional<Mesh>());
+    return cut ? std::optional<NearMesh>({*std::move(cut), eye}) : std::nullopt;
+}
+
 }  // namespace
 
 void pack_meshes(const Scene& scene, PackedScene& packed) {
     const auto has = [&](std::uint32_t bit) { return (packed.features & bit) != 0; };
-    std::vector<bool> used(scene.meshes.size(), false);
+    std::vector<std::vector<const Instance*>> users(scene.meshes.size());
     for (const Instance& instance : scene.instances) {
-        used[static_cast<std::size_t>(instance.mesh)] = true;
+        users[static_cast<std::size_t>(instance.mesh)].push_back(&instance);
     }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         MeshRange range{static_cast<std::uint32_t>(packed.geometries.size()), 0};
-        const glm::dvec3 center = center_of(scene.meshes[i]);
-        packed.mesh_centers.push_back(center);
-        for (const Primitive& primitive : scene.meshes[i].primitives) {
-            if (!used[i] || primitive.triangles.empty()) {
+        const std::optional<NearMesh> near = near_mesh(scene.meshes[i], users[i], packed.origin);
+        const Mesh& mesh = near ? near->mesh : scene.meshes[i];
+        const glm::dvec3 center = near ? glm::dvec3(0) : center_of(mesh);
+        packed.mesh_centers.push_back(near ? near->eye : center);
+        for (const Primitive& primitive : mesh.primitives) {
+            if (users[i].empty() || primitive.triangles.empty()) {
                 continue;
             }
             const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
