@@ -132,11 +132,13 @@ FN void probe_film_sums(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     pixel.samples = p.set.x;
     pixel.nonfinite = p.words.y;
     pixel.rays = p.words.x;
+    pixel.ray_wraps = p.words.z;
     bool kept = film_add(pixel, p.radiance, 7u);
     put_bits(o, kept ? 1u : 0u);
     put_bits(o, pixel.samples);
     put_bits(o, pixel.nonfinite);
     put_bits(o, pixel.rays);
+    put_bits(o, pixel.ray_wraps);
     put_same3(o, pixel.sum);
     put_same3(o, pixel.compensation);
     vec3 sum = p.edge_1;
