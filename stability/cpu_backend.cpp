@@ -1,6 +1,7 @@
-#include <tbb/parallel_for.h>
+#include <tbb/blocked_range.h>
 
 #include "backend/cpu_renderer.h"
+#include "parallel.h"
 #include "stability_backend.h"
 
 namespace diptych::stability {
@@ -23,7 +24,11 @@ public:
     std::vector<MeasuredOutput> run(Function function, std::span<const MeasuredInput> inputs) override {
         std::vector<MeasuredOutput> outputs(inputs.size());
         const Measure measure = measures[static_cast<std::size_t>(function)];
-        tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) { measure(inputs[i], outputs[i]); });
+        parallel_over(tbb::blocked_range<std::size_t>(0, inputs.size()), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                measure(inputs[i], outputs[i]);
+            }
+        });
         return outputs;
     }
 

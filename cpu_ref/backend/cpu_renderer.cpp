@@ -1,8 +1,6 @@
 #include "backend/cpu_renderer.h"
 
 #include <tbb/blocked_range2d.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +8,7 @@
 
 #include "backend/path_batch.h"
 #include "backend/path_recording.h"
+#include "parallel.h"
 
 namespace diptych {
 namespace {
@@ -34,7 +33,7 @@ class CpuRenderer final : public Renderer {
 public:
     CpuRenderer(const PackedScene& packed, int threads)
         : packed_(&packed), constants_(packed.constants), arena_(threads > 0 ? threads : tbb::task_arena::automatic),
-          start_(Clock::now()), scene_(arena_.execute([&] { return std::make_unique<EmbreeScene>(packed); })) {
+          start_(Clock::now()), scene_(run_in(arena_, [&] { return std::make_unique<EmbreeScene>(packed); })) {
         build_seconds_ = seconds_since(start_);
         lay_out_films();
     }
@@ -76,7 +75,7 @@ public:
     }
 
     void move_to(const PackedScene& moment) override {
-        arena_.execute([&] { scene_->move_to(moment); });
+        run_in(arena_, [&] { scene_->move_to(moment); });
         const std::uint32_t seed = constants_.seed;
         packed_ = &moment;
         constants_ = moment.constants;
@@ -84,7 +83,7 @@ public:
     }
 
     void reconfigure(const PackedScene& packed) override {
-        arena_.execute([&] { scene_->reconfigure(packed); });
+        run_in(arena_, [&] { scene_->reconfigure(packed); });
         packed_ = &packed;
         constants_ = packed.constants;
         lay_out_films();
@@ -100,10 +99,10 @@ public:
                                            std::optional<std::uint32_t> seed) override {
         shared::RenderConstants constants = constants_;
         constants.seed = seed.value_or(constants.seed);
-        return arena_.execute([&] { return diptych::record_paths(*packed_, constants, *scene_, queries); });
+        return run_in(arena_, [&] { return diptych::record_paths(*packed_, constants, *scene_, queries); });
     }
     std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery> queries) override {
-        return arena_.execute([&] { return diptych::summarize_paths(*packed_, constants_, *scene_, queries); });
+        return run_in(arena_, [&] { return diptych::summarize_paths(*packed_, constants_, *scene_, queries); });
     }
 
 private:
@@ -124,8 +123,8 @@ private:
     void for_tiles(const Body& body) const {
         const tbb::blocked_range2d<int> tiles(0, (film_.height + tile_size - 1) / tile_size, 1, 0,
                                               (film_.width + tile_size - 1) / tile_size, 1);
-        arena_.execute([&] {
-            tbb::parallel_for(
+        run_in(arena_, [&] {
+            parallel_over(
                 tiles,
                 [&](const tbb::blocked_range2d<int>& range) {
                     for (int y = range.rows().begin(); y < range.rows().end(); ++y) {

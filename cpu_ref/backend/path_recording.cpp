@@ -1,9 +1,9 @@
 #include "backend/path_recording.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "backend/cpu_kernel.h"
+#include "parallel.h"
 
 namespace diptych {
 namespace {
@@ -14,7 +14,7 @@ using Queries = std::span<const shared::PathQuery>;
 template <class Keep>
 void trace_paths(const PackedScene& packed, const shared::RenderConstants& constants, const EmbreeScene& scene,
                  Queries queries, const Keep& keep) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 64), [&](const auto& range) {
+    parallel_over(tbb::blocked_range<std::size_t>(0, queries.size(), 64), [&](const auto& range) {
         std::vector<shared::PathVertexRecord> vertices;
         shared::CpuKernel<PathRecorder, ~0U> kernel{packed, constants, {scene, vertices}};
         for (std::size_t i = range.begin(); i != range.end(); ++i) {

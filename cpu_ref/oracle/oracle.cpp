@@ -1,14 +1,14 @@
 #include "oracle/oracle.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include <tbb/blocked_range.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "error.h"
 #include "oracle/camera.h"
+#include "parallel.h"
 
 namespace diptych {
 
@@ -111,10 +111,12 @@ Oracle::~Oracle() = default;
 void Oracle::render(std::uint64_t first, std::uint64_t count, const std::atomic<bool>& cancel) {
     const std::uint64_t end = first + count;
     for (std::uint64_t run = first / run_length; run * run_length < end && !cancel; ++run) {
-        state_->arena.execute([&] {
-            tbb::parallel_for(0, state_->settings.height, [&](int y) {
-                for (int x = 0; x < state_->settings.width && !cancel; ++x) {
-                    state_->render_run(x, y, run, first, end);
+        run_in(state_->arena, [&] {
+            parallel_over(tbb::blocked_range<int>(0, state_->settings.height), [&](const auto& rows) {
+                for (int y = rows.begin(); y < rows.end(); ++y) {
+                    for (int x = 0; x < state_->settings.width && !cancel; ++x) {
+                        state_->render_run(x, y, run, first, end);
+                    }
                 }
             });
         });

@@ -134,11 +134,10 @@ FN void probe_film_sums(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     pixel.rays = p.words.x;
     pixel.ray_wraps = p.words.z;
     bool kept = film_add(pixel, p.radiance, 7u);
-    put_bits(o, kept ? 1u : 0u);
+    put_bits(o, 2u * (pixel.ray_wraps - p.words.z) + (kept ? 1u : 0u));
     put_bits(o, pixel.samples);
     put_bits(o, pixel.nonfinite);
     put_bits(o, pixel.rays);
-    put_bits(o, pixel.ray_wraps);
     put_same3(o, pixel.sum);
     put_same3(o, pixel.compensation);
     vec3 sum = p.edge_1;
