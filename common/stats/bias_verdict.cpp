@@ -128,9 +128,9 @@ std::vector<PairVerdict> judge(std::span<const TileComparison> comparisons, cons
         verdict.adjusted_p = *std::min_element(own.begin(), own.end());
         verdict.min_detectable_percent = minimum_detectable(comparison.standard_error_percent, comparison.freedom,
                                                             limits.alpha / static_cast<double>(p.size()), limits.power);
-        const double decisive_p = lopsided_tails(comparison) ? own[0] : verdict.adjusted_p;
+        const double p_that_counts = lopsided_tails(comparison) ? own[0] : verdict.adjusted_p;
         const bool unmet = unmet_tail(comparison);
-        if ((decisive_p <= limits.alpha && !unmet) || comparison.unequal > 0) {
+        if ((p_that_counts <= limits.alpha && !unmet) || comparison.unequal > 0) {
             verdict.verdict = Verdict::fail;
             verdict.reason = failure(comparison, own, limits.alpha);
         } else if (verdict.adjusted_p <= limits.alpha) {
