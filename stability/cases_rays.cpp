@@ -103,34 +103,27 @@ Measured measure_furnace(Backend& backend, double scale, Effort effort) {
     return judge_mean(render(backend, scene, settings, spp_of(effort)), 0.25 * (1 - std::pow(0.5, 4)) / 0.5);
 }
 
-/// Below the middle of a square lamp as wide as it is high above a floor of ten units; the wall of a unit stands
-/// beside.
-Measured measure_lamp_height(Backend& backend, double height, Effort effort) {
+/// Of a level floor, below the middle of a square lamp as wide as it is high.
+Measured measure_lamp(Backend& backend, const Primitive& floor, double height, Effort effort) {
     Scene scene;
     scene.name = "lamp";
-    const int grey = add_material(scene, diffuse(0.5F));
+    add_material(scene, diffuse(0.5F));
     const int lamp = add_material(scene, make_emitter("lamp", glm::vec3(1)));
-    const double wide = std::max(10.0, 4 * height);
-    add_object(scene, "floor", {level_square(dvec3(0), wide, true, grey)});
+    add_object(scene, "floor", {floor});
     add_object(scene, "lamp", {level_square({0, height, 0}, height / 2, false, lamp)});
     const double near = std::min(height, 1.0);
     add_camera(scene, {0.9 * near, 0.6 * near, 0.3 * near}, dvec3(0), 1e-3);
-    const RenderSettings settings = settings_of(8, 8, 1);
-    const Film film = render(backend, scene, settings, effort == Effort::quick ? 1024 : 65536);
+    const Film film = render(backend, scene, settings_of(8, 8, 1), effort == Effort::quick ? 1024 : 65536);
     return judge_mean(film, 0.5 / 3.14159265358979 * square_irradiance(0.5, 1));
 }
 
-/// Below the middle of a square lamp as wide as it is high, a metre; the floor reaches so far, and farther on one side.
+Measured measure_lamp_height(Backend& backend, double height, Effort effort) {
+    return measure_lamp(backend, level_square(dvec3(0), std::max(10.0, 4 * height), true, 0), height, effort);
+}
+
+/// The floor reaches so far, and farther on one side.
 Measured measure_floor_width(Backend& backend, double width, Effort effort) {
-    Scene scene;
-    scene.name = "wide floor";
-    const int grey = add_material(scene, diffuse(0.5F));
-    const int lamp = add_material(scene, make_emitter("lamp", glm::vec3(1)));
-    add_object(scene, "floor", {level_square(dvec3(0.3, 0, -0.2) * width, width, true, grey)});
-    add_object(scene, "lamp", {level_square({0, 1, 0}, 0.5, false, lamp)});
-    add_camera(scene, {0.9, 0.6, 0.3}, dvec3(0), 1e-3);
-    const Film film = render(backend, scene, settings_of(8, 8, 1), effort == Effort::quick ? 1024 : 65536);
-    return judge_mean(film, 0.5 / 3.14159265358979 * square_irradiance(0.5, 1));
+    return measure_lamp(backend, level_square(dvec3(0.3, 0, -0.2) * width, width, true, 0), 1, effort);
 }
 
 /// Inside a closed black room under a bright sky: whatever is seen came through a seam.

@@ -76,7 +76,6 @@ void SceneLoader::watch(const LoadedScene& loaded) {
     watched_ = loaded.files;
     stamps_ = loaded.stamps;
     changing_.clear();
-    unwatched_ = false;
     ++watches_;
     generation_ = std::max(generation_, loaded.generation);
 }
@@ -123,7 +122,7 @@ void SceneLoader::run() {
     std::unique_lock lock(mutex_);
     while (!stop_) {
         wake_.wait_for(lock, between_looks, [&] { return stop_ || wanted_; });
-        if (!stop_ && !wanted_ && !unwatched_ && files_changed(lock)) {
+        if (!stop_ && !wanted_ && files_changed(lock)) {
             wanted_ = watched_request_;
             reload_ = true;
         }
@@ -149,7 +148,8 @@ void SceneLoader::run() {
         }
         if (loaded) {
             loaded_ = std::move(loaded);
-            unwatched_ = true;
+            watched_.clear();
+            stamps_.clear();
         } else {
             error_ = error;
         }

@@ -45,7 +45,7 @@ public:
     void open(RenderRequest request, bool reloads = false);
 
     /// Watches these files, four times a second, and opens the request again once they have changed and then held still
-    /// for one look. Until then nothing is watched while another scene is opened, loaded, or waits to be taken.
+    /// for one look. A scene that loads ends this: the files may be of one that is gone.
     void watch(const LoadedScene& loaded);
 
     /// What has come of it since the last call: a scene, or else an error line. Neither while nothing is done.
@@ -71,7 +71,6 @@ private:
     std::vector<FileStamp> stamps_;    // as loaded
     std::vector<FileStamp> changing_;  // as of the last look, while they change
     std::uint64_t watches_ = 0;        // rises with each watch()
-    bool unwatched_ = false;           // a scene has been loaded since watch(): the files may be of one that is gone
     std::uint64_t generation_ = 1;
     bool stop_ = false;
     std::thread thread_;
