@@ -67,23 +67,10 @@ void replace_structures(const Gpu& gpu, const Bindings& bindings, vk::Accelerati
     }
 }
 
-namespace {
-
-template <typename T>
-void overwrite(const Gpu& gpu, const Buffer& buffer, const T& value) {
-    Uploader uploader(gpu, sizeof(value));
-    uploader.upload(buffer, std::as_bytes(std::span(&value, 1)));
-    uploader.finish();
-}
-
-}  // namespace
-
-void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants) {
-    overwrite(gpu, bindings.constants, constants);
-}
-
-void replace_addresses(const Gpu& gpu, const Bindings& bindings, const SceneAddresses& addresses) {
-    overwrite(gpu, bindings.addresses, addresses);
+void record_values(const vk::raii::CommandBuffer& commands, const Bindings& bindings, const SceneAddresses& addresses,
+                   const shared::RenderConstants& constants) {
+    commands.updateBuffer<SceneAddresses>(*bindings.addresses.handle, 0, addresses);
+    commands.updateBuffer<shared::RenderConstants>(*bindings.constants.handle, 0, constants);
 }
 
 }  // namespace diptych

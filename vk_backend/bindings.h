@@ -20,13 +20,12 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
                        vk::AccelerationStructureKHR previous, const SceneAddresses& addresses,
                        const shared::RenderConstants& constants);
 
-/// Puts other constants in the place of those it was made with. Nothing that reads them may be in flight.
-void replace_constants(const Gpu& gpu, const Bindings& bindings, const shared::RenderConstants& constants);
+/// Records that others take the place of the addresses and constants that it was made with. The command carries the
+/// bytes: a view does this in every frame, and memory for staging is dear to allocate.
+void record_values(const vk::raii::CommandBuffer& commands, const Bindings& bindings, const SceneAddresses& addresses,
+                   const shared::RenderConstants& constants);
 
-/// Likewise other addresses.
-void replace_addresses(const Gpu& gpu, const Bindings& bindings, const SceneAddresses& addresses);
-
-/// Likewise other top-level structures.
+/// Other top-level structures take their places. Nothing that reads the set may be in flight.
 void replace_structures(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure,
                         vk::AccelerationStructureKHR previous);
 

@@ -1,6 +1,7 @@
 #include "commands.h"
 
 #include <cstdint>
+#include <exception>
 #include <limits>
 
 namespace diptych {
@@ -31,6 +32,30 @@ void CommandSlot::wait() {
     }
     gpu_.device.resetFences(*fence_);
     in_flight_ = false;
+}
+
+CommandRing::~CommandRing() {
+    try {
+        drain();
+    } catch (const std::exception&) {  // a device that is lost: nothing of it runs any more
+    }
+}
+
+void CommandRing::submit(const Record& record) {
+    CommandSlot& slot = slots_[next_];
+    next_ = (next_ + 1) % slots_.size();
+    slot.wait();
+    slot.submit([&](const vk::raii::CommandBuffer& commands) {
+        full_barrier(commands);
+        record(commands);
+        full_barrier(commands);
+    });
+}
+
+void CommandRing::drain() {
+    for (CommandSlot& slot : slots_) {
+        slot.wait();
+    }
 }
 
 void run_commands(const Gpu& gpu, const Record& record) {

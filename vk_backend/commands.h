@@ -1,6 +1,7 @@
 // Recording and submitting commands.
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "gpu.h"
@@ -26,6 +27,25 @@ private:
     vk::raii::CommandBuffer commands_ = nullptr;
     vk::raii::Fence fence_;
     bool in_flight_ = false;
+};
+
+/// Submissions that nobody waits for: each comes after all that was submitted before it and before all that follows, if
+/// those begin with a barrier.
+class CommandRing {
+public:
+    explicit CommandRing(const Gpu& gpu) : slots_{CommandSlot(gpu), CommandSlot(gpu)} {}
+    ~CommandRing();
+    CommandRing(const CommandRing&) = delete;
+    CommandRing& operator=(const CommandRing&) = delete;
+
+    /// Records between barriers, and submits; waits first for the older of two in flight.
+    void submit(const Record& record);
+    /// Waits for all.
+    void drain();
+
+private:
+    std::array<CommandSlot, 2> slots_;
+    std::size_t next_ = 0;
 };
 
 /// Records, submits, waits.

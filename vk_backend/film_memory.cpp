@@ -30,7 +30,10 @@ FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t featur
     if ((features & shared::FEATURE_FIRST_HIT_LAYERS) != 0) {
         film.first_hits = layer<shared::FilmFirstHit>(gpu, count);
     }
-    clear_film(gpu, film);
+    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
+        record_clear(commands, film);
+        full_barrier(commands);
+    });
     return film;
 }
 
@@ -40,16 +43,12 @@ bool fits(const FilmMemory& film, int width, int height, std::uint32_t features)
            (film.first_hits.size > 0) == ((features & shared::FEATURE_FIRST_HIT_LAYERS) != 0);
 }
 
-void clear_film(const Gpu& gpu, const FilmMemory& film) {
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        full_barrier(commands);  // a display may be reading it
-        for (const Buffer* buffer : {&film.pixels, &film.moments, &film.first_hits}) {
-            if (buffer->size > 0) {
-                commands.fillBuffer(*buffer->handle, 0, VK_WHOLE_SIZE, 0);
-            }
+void record_clear(const vk::raii::CommandBuffer& commands, const FilmMemory& film) {
+    for (const Buffer* buffer : {&film.pixels, &film.moments, &film.first_hits}) {
+        if (buffer->size > 0) {
+            commands.fillBuffer(*buffer->handle, 0, VK_WHOLE_SIZE, 0);
         }
-        full_barrier(commands);
-    });
+    }
 }
 
 void enter_film(SceneAddresses& addresses, const FilmMemory& film) {

@@ -22,8 +22,8 @@ FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t featur
 /// Whether it is of that size and has the layers that `features` names, and no others.
 bool fits(const FilmMemory& film, int width, int height, std::uint32_t features);
 
-/// Zeros again. Nothing that writes the film may be in flight; a display that reads it may.
-void clear_film(const Gpu& gpu, const FilmMemory& film);
+/// Records that the film becomes zeros again.
+void record_clear(const vk::raii::CommandBuffer& commands, const FilmMemory& film);
 
 /// Enters the film's addresses.
 void enter_film(SceneAddresses& addresses, const FilmMemory& film);

@@ -25,6 +25,7 @@ void PathRenderer::reconfigure(const PackedScene& packed) {
         packed.triangles.size() * sizeof(shared::uvec3) != scene_.triangles.size) {
         throw Error("Vulkan device " + gpu_->name + ": these are the settings of another scene");
     }
+    upkeep_->drain();
     bindings_ = Bindings();
     constants_ = packed.constants;
     features_ = packed.features;

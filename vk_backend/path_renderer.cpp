@@ -57,6 +57,7 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
     : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes),
       schedule_(packed.constants) {
     const auto start = std::chrono::steady_clock::now();
+    upkeep_ = std::make_unique<CommandRing>(*gpu_);
     in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
     in_context("building acceleration structures", [&] { build_structures(packed); });
     const auto size = glm::ivec2(constants_.size);
@@ -98,16 +99,21 @@ void PathRenderer::begin_film() {
     std::erase_if(films_, [&](const auto& film) { return !fits(*film, size.x, size.y, features_); });
     const auto free = std::find_if(films_.begin(), films_.end(),
                                    [&](const auto& film) { return film.use_count() == (film == film_ ? 2 : 1); });
-    if (free != films_.end()) {
+    const bool used = free != films_.end();
+    if (used) {
         film_ = *free;
-        diptych::clear_film(*gpu_, *film_);
     } else {
         film_ = films_.emplace_back(std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_)));
         count_bytes();
     }
-    if (bindings_.set) {
-        replace_addresses(*gpu_, bindings_, addresses(*film_));
-    }
+    upkeep_->submit([&](const vk::raii::CommandBuffer& commands) {
+        if (used) {
+            record_clear(commands, *film_);
+        }
+        if (bindings_.set) {
+            record_values(commands, bindings_, addresses(*film_), constants_);
+        }
+    });
 }
 
 SceneAddresses PathRenderer::addresses(const FilmMemory& film) const {
@@ -190,7 +196,6 @@ void PathRenderer::restart(std::uint32_t seed) {
     require_bound();
     in_context("starting over", [&] {
         constants_.seed = seed;
-        replace_constants(*gpu_, bindings_, constants_);
         schedule_.restart();
         begin_film();
     });
@@ -218,7 +223,9 @@ void PathRenderer::move_to(const PackedScene& moment) {
         const std::uint32_t seed = constants_.seed;
         constants_ = moment.constants;
         constants_.seed = seed;
-        replace_constants(*gpu_, bindings_, constants_);
+        upkeep_->submit([&](const vk::raii::CommandBuffer& commands) {
+            record_values(commands, bindings_, addresses(*film_), constants_);
+        });
     });
 }
 

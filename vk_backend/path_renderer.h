@@ -112,6 +112,7 @@ private:
     Bindings bindings_;
     double dispatch_seconds_ = 0.06;
     SpeedEstimate speed_{dispatch_seconds_};
+    std::unique_ptr<CommandRing> upkeep_;  // what is to happen between pictures
     std::unique_ptr<TimedQueue> queue_;
     RendererCosts costs_;
     std::optional<SpeedEstimate> recording_speed_;  // of record.rgen, once it has been asked for

@@ -111,6 +111,7 @@ void PanelEngine::apply(const ViewJob& job) {
             level = std::max(level, Invalidation::picture);
         }
         job_ = job;
+        resumes_ = begin;
         divisor_ = budget.divisor;
         shot_.error.clear();
         applied_.reset();  // until it is done
@@ -248,7 +249,13 @@ void PanelEngine::advance(const std::atomic<bool>& cancel) {
         const FrameBudget budget =
             frame_budget(speed_, wanted.width, wanted.height, job_->frame_seconds, job_->moving, divisor_);
         const bool first = samples_ == 0;
-        const std::uint32_t count = first ? 1 : std::min(budget.samples, samples_left());
+        if (!first) {
+            settle();
+        }
+        // At rest the first sample is shown at once. What moves is shown once a frame, by as many as fit; of a chain
+        // only the first looks back to the frame before.
+        const bool one = first && (!job_->moving || unsettled_);
+        const std::uint32_t count = one ? 1 : std::min(budget.samples, samples_left());
         const Clock::time_point begin = Clock::now();
         renderer_->render(first_ + samples_, count, cancel);
         if (cancel) {
@@ -257,8 +264,11 @@ void PanelEngine::advance(const std::atomic<bool>& cancel) {
         }
         samples_ += count;
         learn(count, between(begin, Clock::now()));
-        settle();
         publish(first);
+        resumes_ = Clock::now();
+        if (job_->moving) {
+            resumes_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(job_->frame_seconds));
+        }
     });
 }
 

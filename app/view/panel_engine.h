@@ -44,9 +44,12 @@ public:
     /// Whether the job is one of many that follow one another, and has shown nothing yet.
     bool owes_first_sample() const { return wants_samples() && job_->moving && samples_ == 0; }
 
-    /// One sample of a new picture, else as many as fit a frame, and a shot of them. A cancel leaves the film for the
-    /// next job to clear.
+    /// One sample of a new picture at rest, else as many as fit a frame, and a shot of them. A cancel leaves the film
+    /// for the next job to clear.
     void advance(const std::atomic<bool>& cancel);
+
+    /// When the next samples are due: at once, but for what moves a frame later, as another job will have come by then.
+    std::chrono::steady_clock::time_point resumes() const { return resumes_; }
 
     RecordedPath record_path(shared::PathQuery query, std::uint32_t seed);
     KeptFilm film();
@@ -91,9 +94,10 @@ private:
     PanelSpeed speed_;
     bool relearns_ = false;  // the speed is that of other settings
     int divisor_ = 1;
-    std::uint32_t first_ = 0;          // index of the picture's first sample
-    std::uint32_t samples_ = 0;        // of the picture
-    bool unsettled_ = false;           // its next samples are to look back to this same moment
+    std::uint32_t first_ = 0;    // index of the picture's first sample
+    std::uint32_t samples_ = 0;  // of the picture
+    bool unsettled_ = false;     // its next samples are to look back to this same moment
+    Clock::time_point resumes_{};
     bool spoiled_ = false;             // some pixels have samples of a chunk that was cut short
     Pace host_films_{1.0 / 30, 0.25};  // of renderers without a film on a device
     Pace looks_{0.25, 0.05};           // at figures

@@ -120,7 +120,12 @@ void PanelWorker::run(RendererFactory factory) {
     });
     std::unique_lock lock(mutex_);
     while (true) {
-        wake_.wait(lock, [&] { return stop_ || waiting_ || factory_ || !requests_.empty() || engine.wants_samples(); });
+        const auto called = [&] { return stop_ || waiting_ || factory_ || !requests_.empty(); };
+        if (engine.wants_samples()) {
+            wake_.wait_until(lock, engine.resumes(), called);
+        } else {
+            wake_.wait(lock, called);
+        }
         auto requests = std::exchange(requests_, {});
         if (stop_) {
             lock.unlock();

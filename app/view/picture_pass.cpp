@@ -15,7 +15,8 @@ namespace diptych::app {
 #if DIPTYCH_VULKAN
 
 struct PicturePass::Device {
-    explicit Device(const GpuRequest& request) : gpu(open_gpu(request)), uploader(gpu), pass(make_display_pass(*gpu)) {}
+    explicit Device(const GpuRequest& request)
+        : gpu(open_gpu(request)), uploader(gpu), commands(*gpu), pass(make_display_pass(*gpu)) {}
 
     DeviceFilm film_of(const PanelShot* shot) {
         if (shot == nullptr) {
@@ -33,6 +34,7 @@ struct PicturePass::Device {
 
     std::shared_ptr<Gpu> gpu;
     FilmUploader uploader;
+    CommandSlot commands;
     DisplayPass pass;
     DisplayPicture picture;
     std::shared_ptr<const Film> uploaded;
@@ -62,9 +64,10 @@ void PicturePass::draw(const ShownState& shown, const PanelShot* cpu, const Pane
         shown.panel == ShownPanel::split ? static_cast<std::uint32_t>(std::lround(shown.divider * width)) : columns;
     request.tonemap = shown.tonemap;
     request.exposure_ev = static_cast<float>(shown.exposure);
-    run_commands(*device.gpu, [&](const vk::raii::CommandBuffer& commands) {
+    device.commands.submit([&](const vk::raii::CommandBuffer& commands) {
         record_display(commands, device.pass, device.picture, request);
     });
+    device.commands.wait();
 }
 
 Image PicturePass::picture() const {

@@ -174,11 +174,16 @@ TEST_CASE("A slow picture at rest gives way at once, and what was cut short is n
     }
 }
 
-TEST_CASE("Every preview of a motion shows a whole sample", "[view]") {
+TEST_CASE("Every preview of a motion shows whole samples", "[view]") {
     const auto script = std::make_shared<Script>();
     PanelWorker worker("fake", fake_factory(script));
     std::atomic<int> shown = 0;
-    worker.on_shot([&] { shown += worker.shot()->spp == 1 ? 1 : 0; });
+    std::uint64_t last = 0;
+    worker.on_shot([&] {
+        const auto shot = worker.shot();
+        shown += shot->spp > 0 && shot->version != last ? 1 : 0;
+        last = shot->spp > 0 ? shot->version : last;
+    });
     ViewJob job = job_of(small_scene(), 0, 64);
     job.moving = true;
     for (int i = 1; i <= 100; ++i) {
@@ -192,6 +197,27 @@ TEST_CASE("Every preview of a motion shows a whole sample", "[view]") {
     for (const std::string& call : script->take()) {
         CHECK(call.rfind("render 0 0", 0) == std::string::npos);
     }
+}
+
+TEST_CASE("What moves takes the samples that fit a frame, and then waits for what comes next", "[view]") {
+    const auto script = std::make_shared<Script>();
+    PanelWorker worker("fake", fake_factory(script));
+    ViewJob job = job_of(small_scene(), 1);
+    job.moving = true;
+    job.frame_seconds = 10;
+    worker.post(job);  // from which its speed is known
+    await_shot(worker, shows(1));
+    job.version = 2;
+    job.state.camera.camera_to_world[3].y += 0.5;
+    worker.post(job);
+    const std::uint32_t taken = await_shot(worker, shows(2))->spp;
+    CHECK(taken > 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    CHECK(worker.shot()->spp == taken);
+    job.version = 3;
+    job.moving = false;
+    worker.post(job);  // the same picture: it goes on at once
+    CHECK(await_shot(worker, shows(3, taken + 1))->spp > taken);
 }
 
 TEST_CASE("An error stands in the shot, and the next change tries again", "[view]") {
