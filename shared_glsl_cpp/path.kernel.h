@@ -274,6 +274,12 @@ FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
         RECORD(direct, path.direct.radiance);
     }
 
+    path.origin = v.origin;
+    path.reference = v.position;
+    path.depth = depth + 1u;
+    if (!feature(FEATURE_LATER_VERTICES)) {
+        return;
+    }
     vec2 u_direction = vec2(unit_float(v.draws.first.x), unit_float(v.draws.second.x));
     vec2 u_lobe = vec2(unit_float(v.draws.first.y), unit_float(v.draws.second.y));
     BsdfSample next = surface_bsdf_sample(v.bsdf, v.seen, u_lobe, u_direction, features());
@@ -296,10 +302,7 @@ FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
     RECORD(bsdf_pdf, next.pdf);
     RECORD(throughput, path.throughput);
     path.pdf_direction = next.pdf;
-    path.origin = v.origin;
-    path.reference = v.position;
     path.direction = next.direction;
-    path.depth = depth + 1u;
     path.goes_on = goes_on;
 }
 

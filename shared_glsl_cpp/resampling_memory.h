@@ -11,9 +11,11 @@ SHARED_BEGIN
 /// A first vertex that waits to be shaded.
 struct FirstVertex {
     Hit hit;
-    uint rays;  // traced for it so far, beside the camera's
+    vec3 origin;    // where its rays start, if it takes light from a reservoir
+    uint rays;      // traced for it so far, beside the camera's
+    uint occluded;  // 1: the light point that its reservoir ended with is hidden from it
 };
-ASSERT_SIZE(FirstVertex, 28);
+ASSERT_SIZE(FirstVertex, 44);
 
 struct ResamplingPass {
     uint frame;             // the sample index of all pixels

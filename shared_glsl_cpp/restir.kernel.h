@@ -1,7 +1,10 @@
-// ReSTIR direct light (Bitterli et al. 2020) in its unbiased GRIS form (Lin et al. 2022), as passes over the film: `candidates` finds
-// the first vertex and resamples light points for it; `temporal` merges what the same surface had a frame before; `spatial` merges what
-// neighbours have; `shade` takes the first vertex's direct light from the reservoir and goes on as a path. `ris` is the first and the
-// last of them.
+// ReSTIR direct light (Bitterli et al. 2020) in its unbiased GRIS form (Lin et al. 2022), as passes over the film: `first hits` traces
+// the camera's rays; `candidates` resamples light points for what they met; `temporal` merges what the same surface had a frame before;
+// `spatial` merges what neighbours have; `shadows` asks whether the point that came out is seen; `shade` takes the first vertex's direct
+// light from it and goes on as a path. `ris` is all of them but the two that merge.
+//
+// Passes that trace a ray of every pixel do little else: a device that traverses in its shaders' own registers has more rays in
+// flight then.
 //
 // One frame is one sample of every pixel. The first-vertex hits and the reservoirs lie in memory between passes (hooks.md); a set is
 // one whole film of them.
@@ -101,13 +104,22 @@ FN Resampling add_bsdf_candidate(IN(Resampling) lights, IN(TargetSurface) surfac
     return chosen;
 }
 
-/// The camera's ray and its surface's initial reservoir, of confidence 1 whatever it holds.
-FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
-    uint index = pixel_index(pixel);
+/// The camera's ray.
+FN void find_first_vertex(uvec2 pixel, IN(ResamplingPass) pass) {
     PathState path = begin_path(pixel, pass.frame);
     FirstVertex vertex;
     vertex.hit = trace_closest(path.origin, path.direction, next_ray_key(path));
+    vertex.origin = vec3(0.0f, 0.0f, 0.0f);
     vertex.rays = 0u;
+    vertex.occluded = 0u;
+    store_first_vertex(pixel_index(pixel), vertex);
+}
+
+/// The first vertex's initial reservoir, of confidence 1 whatever it holds.
+FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
+    uint index = pixel_index(pixel);
+    PathState path = begin_path(pixel, pass.frame);
+    FirstVertex vertex = load_first_vertex(index);
     Reservoir reservoir = empty_reservoir();
     ReuseSurface kept = no_reuse_surface();
     if (vertex.hit.instance != NONE && constants.max_depth > 0u) {
@@ -117,8 +129,8 @@ FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
         LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
         SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
         if ((material.flags & MATERIAL_UNLIT) == 0u && !bsdf_is_purely_delta(bsdf.parameters, features())) {
-            vec3 origin = offset_ray(surface.position, bsdf.geometric_normal, surface.magnitude);
-            ReuseSurface described = pack_reuse_surface(origin, bsdf, wo);
+            vertex.origin = offset_ray(surface.position, bsdf.geometric_normal, surface.magnitude);
+            ReuseSurface described = pack_reuse_surface(vertex.origin, bsdf, wo);
             TargetSurface target = unpack_reuse_surface(described);
             if (wants_reuse(bsdf)) {
                 kept = described;
@@ -126,7 +138,7 @@ FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
             Resampling chosen = resample_lights(target, path.random);
             if (wants_bsdf_candidate(bsdf)) {
                 SeenBsdf seen = see_bsdf(bsdf, wo, features());
-                chosen = add_bsdf_candidate(chosen, target, bsdf, seen, origin, path.random, vertex.rays);
+                chosen = add_bsdf_candidate(chosen, target, bsdf, seen, vertex.origin, path.random, vertex.rays);
             }
             reservoir = end_resampling(chosen, 1.0f, MUTANT(CONFIDENCE_BY_SAMPLE, 1.0f, clamp(chosen.target, 0.1f, 10.0f)));
             bool tests_visibility = MUTANT(INITIAL_CULL, false, true) || constants.resampling.visibility == VISIBILITY_IN_TARGET ||
@@ -258,7 +270,29 @@ FN void reuse_spatial(uvec2 pixel, IN(ResamplingPass) pass) {
     }
 }
 
-/// The path whose first vertex waits in memory; its next ray, if it goes on, is to be traced.
+/// Whether the point that a reservoir ended with is seen from its first vertex. Where the target has visibility, it is.
+FN void trace_shadow_of_chosen(uvec2 pixel, IN(ResamplingPass) pass) {
+    uint index = pixel_index(pixel);
+    Reservoir chosen = load_reservoir(pass.reservoirs, index);
+    if (!(chosen.weight > 0.0f)) {
+        return;
+    }
+    FirstVertex vertex = load_first_vertex(index);
+    SeenLight light = see_light_point(chosen.point, vertex.origin, MOMENT_CURRENT);
+    vec3 direction = light.distant ? light.direction : light.end - vertex.origin;
+    float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
+    Sampler random = make_sampler(pixel, pass.frame, constants.seed, constants.sampler_kind, constants.sample_count);
+    vertex.occluded = trace_any(vertex.origin, direction, t_max, ray_alpha_key(random, 1u)) ? 1u : 0u;
+    vertex.rays += 1u;
+    store_first_vertex(index, vertex);
+    bool hands_on = MUTANT(FINAL_CULL, constants.resampling.visibility != VISIBILITY_BIASED_FINAL, false);
+    if (vertex.occluded != 0u && !hands_on) {
+        chosen.weight = 0.0f;
+        store_reservoir(pass.reservoirs, index, chosen);
+    }
+}
+
+/// The path whose first vertex waits in memory, lit; its next ray, if it goes on, is to be traced.
 FN PathState begin_resampled_path(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
     PathState path = begin_path(pixel, pass.frame);
@@ -266,39 +300,23 @@ FN PathState begin_resampled_path(uvec2 pixel, IN(ResamplingPass) pass) {
     path.reservoir = load_reservoir(pass.reservoirs, index);
     extend_path(path, vertex.hit);
     path.found.rays += vertex.rays;
-    if (target_has_visibility()) {  // the point has been seen
+    if (vertex.occluded == 0u) {
         path.found.radiance += path.direct.radiance;
-        path.direct.radiance = vec3(0.0f, 0.0f, 0.0f);
     }
+    path.direct.radiance = vec3(0.0f, 0.0f, 0.0f);
     return path;
-}
-
-/// Hands no point on that proved shadowed, if that bias was asked for.
-FN void keep_final_visibility(uvec2 pixel, IN(ResamplingPass) pass, bool occluded) {
-    bool asked_for = constants.resampling.visibility == VISIBILITY_BIASED_FINAL;
-    if (MUTANT(FINAL_CULL, asked_for, true) && occluded) {
-        uint index = pixel_index(pixel);
-        Reservoir r = load_reservoir(pass.reservoirs, index);
-        r.weight = 0.0f;
-        store_reservoir(pass.reservoirs, index, r);
-    }
 }
 
 /// The sample of this frame.
 FN PathSample shade_resampled(uvec2 pixel, IN(ResamplingPass) pass) {
     PathState path = begin_resampled_path(pixel, pass);
-    bool first = true;
     while (path.goes_on || awaits_shadow_ray(path)) {
         if (awaits_shadow_ray(path)) {
-            bool occluded = trace_any(path.origin, path.direct.direction, path.direct.t_max, shadow_ray_key(path));
-            settle_direct_light(path, occluded);
-            if (first) {
-                keep_final_visibility(pixel, pass, occluded);
-            }
+            settle_direct_light(
+                path, trace_any(path.origin, path.direct.direction, path.direct.t_max, shadow_ray_key(path)));
         } else {
             extend_path(path, trace_closest(path.origin, path.direction, next_ray_key(path)));
         }
-        first = false;
     }
     return path.found;
 }

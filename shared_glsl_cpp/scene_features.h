@@ -26,7 +26,8 @@
     X("first-hit-layers", FEATURE_FIRST_HIT_LAYERS, 16) \
     X("light-sampling", FEATURE_LIGHT_SAMPLING, 17) \
     X("resampling", FEATURE_RESAMPLING, 18)            \
-    X("motion", FEATURE_MOTION, 19)
+    X("motion", FEATURE_MOTION, 19) \
+    X("later-vertices", FEATURE_LATER_VERTICES, 20)
 
 SHARED_BEGIN
 #define DECLARE_FEATURE(name, constant, bit) CONST uint constant = 1u << bit;

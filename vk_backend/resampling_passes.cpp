@@ -55,12 +55,16 @@ std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory) {
 
 Spirv resampling_shader(ResamplingStage stage) {
     switch (stage) {
+    case ResamplingStage::first_hits:
+        return shader_binary("restir_first_hits.rgen");
     case ResamplingStage::candidates:
         return shader_binary("restir_candidates.rgen");
     case ResamplingStage::temporal:
         return shader_binary("restir_temporal.rgen");
     case ResamplingStage::spatial:
         return shader_binary("restir_spatial.rgen");
+    case ResamplingStage::shadows:
+        return shader_binary("restir_shadows.rgen");
     case ResamplingStage::shade:
         break;
     }

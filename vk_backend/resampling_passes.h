@@ -11,7 +11,7 @@
 
 namespace diptych {
 
-constexpr std::size_t resampling_stages = 4;  // of ResamplingStage
+constexpr std::size_t resampling_stages = 6;  // of ResamplingStage
 
 struct ResamplingMemory {
     Buffer first_vertices;

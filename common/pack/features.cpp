@@ -98,6 +98,10 @@ std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings
     bits |= resamples(settings.integrator) ? shared::FEATURE_RESAMPLING : 0U;
     bits |= settings.integrator == Integrator::restir && settings.moves ? shared::FEATURE_MOTION : 0U;
     bits |= samples_lights ? shared::FEATURE_LIGHT_SAMPLING : 0U;
+    // Of direct light alone, only what a mirror shows is found by a ray from the first vertex.
+    const bool finds_by_chance = settings.integrator == Integrator::brdf || settings.integrator == Integrator::path ||
+                                 (bits & shared::FEATURE_MIRRORS) != 0;
+    bits |= settings.max_depth > (finds_by_chance ? 0 : 1) ? shared::FEATURE_LATER_VERTICES : 0U;
     return bits;
 }
 

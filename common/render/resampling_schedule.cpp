@@ -3,17 +3,21 @@
 namespace diptych {
 
 bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants) {
+    const bool resamples = constants.integrator >= shared::INTEGRATOR_RIS;
     const bool reuses = constants.integrator == shared::INTEGRATOR_RESTIR;
     switch (stage) {
     case ResamplingStage::temporal:
         return reuses && constants.resampling.temporal != 0;
     case ResamplingStage::spatial:
         return reuses && constants.resampling.spatial_passes > 0;
+    case ResamplingStage::shadows:
+        return resamples && constants.resampling.visibility != shared::VISIBILITY_IN_TARGET;
+    case ResamplingStage::first_hits:
     case ResamplingStage::candidates:
     case ResamplingStage::shade:
         break;
     }
-    return constants.integrator >= shared::INTEGRATOR_RIS;
+    return resamples;
 }
 
 std::uint32_t resulting_set(const ResamplingStep& step) {
@@ -24,13 +28,16 @@ std::vector<std::string> pass_names(const shared::RenderConstants& constants) {
     if (!needs_stage(ResamplingStage::candidates, constants)) {
         return {};
     }
-    std::vector<std::string> names{"candidates"};
+    std::vector<std::string> names{"first hits", "candidates"};
     if (needs_stage(ResamplingStage::temporal, constants)) {
         names.emplace_back("temporal");
     }
     for (std::uint32_t i = 0;
          needs_stage(ResamplingStage::spatial, constants) && i < constants.resampling.spatial_passes; ++i) {
         names.push_back("spatial " + std::to_string(i + 1));
+    }
+    if (needs_stage(ResamplingStage::shadows, constants)) {
+        names.emplace_back("shadows");
     }
     names.emplace_back("shade");
     return names;
@@ -70,13 +77,13 @@ std::vector<ResamplingStep> ResamplingSchedule::next_frame(std::uint32_t frame) 
     pass.surfaces = surfaces_;
     pass.has_history = follows ? 1 : 0;
     pass.reservoirs = current;
-    std::vector<ResamplingStep> steps{{ResamplingStage::candidates, pass}};
+    std::vector<ResamplingStep> steps{{ResamplingStage::first_hits, pass, 0}, {ResamplingStage::candidates, pass, 1}};
     const bool temporal = needs_stage(ResamplingStage::temporal, constants_);
     if (follows && temporal) {
         pass.other_reservoirs = history_;
-        steps.push_back({ResamplingStage::temporal, pass, 1});
+        steps.push_back({ResamplingStage::temporal, pass, 2});
     }
-    std::size_t place = temporal ? 2 : 1;
+    std::size_t place = temporal ? 3 : 2;
     const bool spatial = needs_stage(ResamplingStage::spatial, constants_);
     for (std::uint32_t i = 0; spatial && i < constants_.resampling.spatial_passes; ++i) {
         pass.iteration = i;
@@ -86,6 +93,9 @@ std::vector<ResamplingStep> ResamplingSchedule::next_frame(std::uint32_t frame) 
         current = 1 - current;
     }
     pass.reservoirs = current;
+    if (needs_stage(ResamplingStage::shadows, constants_)) {
+        steps.push_back({ResamplingStage::shadows, pass, place++});
+    }
     steps.push_back({ResamplingStage::shade, pass, place});
     history_ = current;
     has_history_ = true;

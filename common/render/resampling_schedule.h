@@ -10,7 +10,7 @@
 
 namespace diptych {
 
-enum class ResamplingStage { candidates, temporal, spatial, shade };
+enum class ResamplingStage { first_hits, candidates, temporal, spatial, shadows, shade };
 
 struct ResamplingStep {
     ResamplingStage stage;
@@ -21,8 +21,8 @@ struct ResamplingStep {
 /// The set of reservoirs that holds what the step left.
 std::uint32_t resulting_set(const ResamplingStep& step);
 
-/// The passes of a frame, in order: "candidates", "temporal", "spatial 1", ..., "shade"; none for integrators that do
-/// not resample.
+/// The passes of a frame, in order: "first hits", "candidates", "temporal", "spatial 1", ..., "shadows", "shade"; none
+/// for integrators that do not resample.
 std::vector<std::string> pass_names(const shared::RenderConstants& constants);
 
 /// Whether any frame will run the stage; false for integrators that do not resample.

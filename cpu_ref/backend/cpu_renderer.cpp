@@ -20,7 +20,7 @@ constexpr std::uint32_t samples_a_slice = 16;
 // Scenes that need no more than these get kernels of their own, compiled without the rest.
 constexpr std::uint32_t diffuse_features = shared::FEATURE_EMISSIVE | shared::FEATURE_CONSTANT_ENVIRONMENT |
                                            shared::FEATURE_STANDARD_ERROR | shared::FEATURE_FIRST_HIT_LAYERS |
-                                           shared::FEATURE_LIGHT_SAMPLING;
+                                           shared::FEATURE_LIGHT_SAMPLING | shared::FEATURE_LATER_VERTICES;
 constexpr std::uint32_t plain_features = diffuse_features | shared::FEATURE_GGX;
 
 using Clock = std::chrono::steady_clock;
@@ -196,6 +196,9 @@ private:
                 shared::CpuKernel<PlainTracer, ~0U> kernel{*packed_, constants_, {*scene_}, &reuse_};
                 for_pixels(film, tile_x, tile_y, [&](shared::uvec2 pixel, FilmEntry entry) {
                     switch (step.stage) {
+                    case ResamplingStage::first_hits:
+                        kernel.find_first_vertex(pixel, step.pass);
+                        break;
                     case ResamplingStage::candidates:
                         kernel.resample_candidates(pixel, step.pass);
                         break;
@@ -204,6 +207,9 @@ private:
                         break;
                     case ResamplingStage::spatial:
                         kernel.reuse_spatial(pixel, step.pass);
+                        break;
+                    case ResamplingStage::shadows:
+                        kernel.trace_shadow_of_chosen(pixel, step.pass);
                         break;
                     case ResamplingStage::shade:
                         kernel.add_path(kernel.shade_resampled(pixel, step.pass), entry.pixel, entry.moments,

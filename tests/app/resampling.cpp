@@ -69,6 +69,7 @@ TEST_CASE("bench times every pass of restir", "[app]") {
         CHECK(integrator.at("share_of_bare").is_null());
         return all;
     };
-    CHECK(names(json.at(0)) == std::vector<std::string>{"candidates", "shade"});
-    CHECK(names(json.at(1)) == std::vector<std::string>{"candidates", "temporal", "spatial 1", "spatial 2", "shade"});
+    CHECK(names(json.at(0)) == std::vector<std::string>{"first hits", "candidates", "shadows", "shade"});
+    CHECK(names(json.at(1)) == std::vector<std::string>{"first hits", "candidates", "temporal", "spatial 1",
+                                                        "spatial 2", "shadows", "shade"});
 }

@@ -145,6 +145,33 @@ const std::vector<Case>& cases() {
          FEATURE_RESAMPLING | FEATURE_MOTION},
         {"path that moves", [](Scene&, RenderSettings& r) { r.moves = true; }, 0},
         {"no light to sample", [](Scene&, RenderSettings& r) { r.integrator = Integrator::path; }, 0},
+        {"one bounce, found by chance", [](Scene&, RenderSettings& r) { r.max_depth = 1; }, 0},
+        {"no bounce", [](Scene&, RenderSettings& r) { r.max_depth = 0; }, 0, FEATURE_LATER_VERTICES},
+        {"direct light alone",
+         [](Scene&, RenderSettings& r) {
+             r.integrator = Integrator::direct;
+             r.max_depth = 1;
+         },
+         0, FEATURE_LATER_VERTICES},
+        {"direct light alone, in mirrors too",
+         [](Scene& s, RenderSettings& r) {
+             material(s).roughness = 0;
+             r.integrator = Integrator::direct;
+             r.max_depth = 1;
+         },
+         FEATURE_MIRRORS},
+        {"two bounces of direct light",
+         [](Scene&, RenderSettings& r) {
+             r.integrator = Integrator::direct;
+             r.max_depth = 2;
+         },
+         0},
+        {"ris alone",
+         [](Scene&, RenderSettings& r) {
+             r.integrator = Integrator::ris;
+             r.max_depth = 1;
+         },
+         FEATURE_RESAMPLING, FEATURE_LATER_VERTICES},
         {"emission that no instance has",
          [](Scene& s, RenderSettings&) {
              Material lamp = make_emitter("lamp", glm::vec3(1));
@@ -167,7 +194,7 @@ TEST_CASE("Each feature is on where something needs it, and only there") {
         c.change(scene, settings);
         const std::uint32_t bits = needed_features(scene, settings);
         INFO(c.name);
-        CHECK(feature_names(bits) == feature_names((shared::FEATURE_GGX & ~c.removed) | c.added));
+        CHECK(feature_names(bits) == feature_names(((FEATURE_GGX | FEATURE_LATER_VERTICES) & ~c.removed) | c.added));
         CHECK(pack_scene(scene, settings).features == bits);
         seen |= bits;
         settings.generic = true;
@@ -182,11 +209,11 @@ TEST_CASE("Features of what no instance shows stay off") {
     material(scene).emission = {1, 1, 1};
     material(scene).alpha_mode = AlphaMode::blend;
     scene.instances.clear();
-    CHECK(needed_features(scene, brdf_settings()) == 0);
+    CHECK(needed_features(scene, brdf_settings()) == FEATURE_LATER_VERTICES);
     scene = least_scene();
     square(scene).triangles.clear();
     material(scene).alpha_mode = AlphaMode::blend;
-    CHECK(needed_features(scene, brdf_settings()) == 0);
+    CHECK(needed_features(scene, brdf_settings()) == FEATURE_LATER_VERTICES);
 }
 
 TEST_CASE("What samples no light packs no light") {

@@ -26,7 +26,9 @@ std::vector<Watched> watch(const ChainCase& c, std::uint32_t frames, const MakeR
     const auto renderer = make(packed);
     std::vector<Watched> watched;
     renderer->watch_reservoirs([&](const ResamplingStep& step, std::span<const shared::Reservoir> reservoirs) {
-        watched.push_back({step, {reservoirs.begin(), reservoirs.end()}});
+        if (step.stage != ResamplingStage::first_hits) {  // before which they hold nothing yet
+            watched.push_back({step, {reservoirs.begin(), reservoirs.end()}});
+        }
     });
     const std::atomic<bool> cancel{false};
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
