@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <optional>
 
@@ -24,7 +25,11 @@ constexpr const char* bench_examples = R"(Examples:
   diptych bench street.glb --backend vulkan --integrators direct,ris,restir --max-depth 1
 Medians over the frames; restir's frames follow one another. The integrators take turns, so that all ratios come from one run under the same conditions.)";
 
-constexpr std::uint32_t warm_up_frames = 2;
+// Frames that do not count: two at least, since restir's first has none before it to reuse, and as many as a device
+// needs to leave its clocks of rest.
+constexpr std::uint32_t least_warm_up = 2;
+constexpr std::uint32_t most_warm_up = 1024;
+constexpr double warm_up_seconds = 0.5;
 
 struct BenchOptions {
     RenderArguments arguments;
@@ -43,6 +48,7 @@ struct Entry {
     std::optional<TraversalBench> traversal;        // of integrators that take each sample by itself
     std::vector<std::vector<double>> pass_seconds;  // of each pass, its frames
     double rays_per_frame = 0;
+    std::uint32_t next_frame = 0;
 };
 
 struct Figures {
@@ -66,7 +72,7 @@ std::vector<Entry> make_entries(BenchOptions& options, const Scene& scene, StepL
         line.begin(name + ", building");
         RenderRequest request = options.arguments.request;
         request.settings.integrator = integrator_from_name(name);
-        request.settings.sample_count = options.spp * (warm_up_frames + static_cast<std::uint32_t>(options.frames));
+        request.settings.sample_count = options.spp * (most_warm_up + static_cast<std::uint32_t>(options.frames));
         Entry entry;
         entry.integrator = request.settings.integrator;
         entry.packed = std::make_unique<PackedScene>(pack_scene(scene, request.settings));
@@ -76,11 +82,11 @@ std::vector<Entry> make_entries(BenchOptions& options, const Scene& scene, StepL
     return entries;
 }
 
-void measure(Entry& entry, std::uint32_t frame, std::uint32_t spp) {
+void measure(Entry& entry, std::uint32_t spp) {
     const std::atomic<bool> never = false;
     const double before = entry.renderer->device_seconds();
     const std::vector<PassTime> passes_before = entry.renderer->pass_times();
-    entry.renderer->render(frame * spp, spp, never);
+    entry.renderer->render(entry.next_frame++ * spp, spp, never);
     entry.frame_seconds.push_back(entry.renderer->device_seconds() - before);
     const std::vector<PassTime> passes = entry.renderer->pass_times();
     entry.pass_seconds.resize(passes.size());
@@ -89,21 +95,27 @@ void measure(Entry& entry, std::uint32_t frame, std::uint32_t spp) {
     }
 }
 
-/// The first frames of each warm up and do not count: two, since the first has none before it to reuse.
+void warm_up(Entry& entry, std::uint32_t spp) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(warm_up_seconds));
+    while (entry.next_frame < least_warm_up || (entry.next_frame < most_warm_up && Clock::now() < end)) {
+        measure(entry, spp);
+    }
+    entry.frame_seconds.clear();
+    entry.pass_seconds.clear();
+    entry.rays_per_frame = -static_cast<double>(film_totals(entry.renderer->film()).rays);
+}
+
 void run_rounds(std::vector<Entry>& entries, const BenchOptions& options, StepLine& line) {
     for (Entry& entry : entries) {
         line.begin(fmt::format("{}, warming up", name_of(entry.integrator)));
-        for (std::uint32_t frame = 0; frame < warm_up_frames; ++frame) {
-            measure(entry, frame, options.spp);
-        }
-        entry.frame_seconds.clear();
-        entry.pass_seconds.clear();
-        entry.rays_per_frame = -static_cast<double>(film_totals(entry.renderer->film()).rays);
+        warm_up(entry, options.spp);
     }
     for (int frame = 0; frame < options.frames; ++frame) {
         for (Entry& entry : entries) {
             line.begin(fmt::format("{}, frame {}", name_of(entry.integrator), frame + 1));
-            measure(entry, warm_up_frames + static_cast<std::uint32_t>(frame), options.spp);
+            measure(entry, options.spp);
         }
     }
     for (Entry& entry : entries) {

@@ -16,8 +16,7 @@ namespace {
 class VulkanBackend : public Backend {
 public:
     VulkanBackend(const std::string& device, bool validation)
-        : device_(device), validation_(validation),
-          gpu_(open_gpu({.device = device, .validation = validation_wanted(validation)})),
+        : gpu_(open_gpu({.device = device, .validation = validation_wanted(validation)})),
           shader_(*gpu_, stability_shader_binary("measured.comp"), 2) {}
 
     std::string name() const override { return "vulkan"; }
@@ -35,15 +34,10 @@ public:
     }
 
     std::unique_ptr<Renderer> make_renderer(const PackedScene& packed) override {
-        VulkanOptions options;
-        options.device = device_;
-        options.validation = validation_;
-        return make_vulkan_renderer(packed, options);
+        return make_vulkan_renderer(gpu_, packed);  // drivers can take seconds to open a device, and some only so often
     }
 
 private:
-    std::string device_;
-    bool validation_;
     std::shared_ptr<Gpu> gpu_;
     ComputeShader shader_;
 };
