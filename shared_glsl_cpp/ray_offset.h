@@ -9,6 +9,11 @@ SHARED_BEGIN
 CONST float OFFSET_ULPS = 64.0f;       // of the sizes that were added up along the normal
 CONST float OFFSET_LEAST_ULPS = 2.0f;  // of the largest size: an axis-aligned wall through 0 has none along its normal
 
+// Barycentrics of hits keep so far from 0. A point on the edge between two walls lies on both but for its rounding: beyond one of them, and
+// a ray would leave the room. This is farther than the roundings of a point add up to, where a triangle is not small beside its
+// distance from its origin.
+CONST float EDGE_MARGIN = 9.5367431640625e-7f;  // 2^-20
+
 /// The finite point moved off the surface, to the side that the unit normal points to. `magnitude` bounds, coordinate by coordinate,
 /// what was added up to make the point: that, and not how far from 0 the sum came to lie, says how much rounding there may be. So the
 /// step shrinks and grows with the scene (Waechter & Binder 2019, Ray Tracing Gems, chapter 6, take the point itself and a step for unit

@@ -76,9 +76,10 @@ FN vec2 meet_triangle(vec3 origin, vec3 direction, vec3 vertex, vec3 edge_1, vec
         return fallback;
     }
     PRECISE float inverse = 1.0f / determinant;
-    PRECISE vec2 inside = vec2(max(u * inverse, 0.0f), max(v * inverse, 0.0f));
+    float margin = MUTANT(HITS_ON_EDGES, EDGE_MARGIN, 0.0f);
+    PRECISE vec2 inside = vec2(max(u * inverse, margin), max(v * inverse, margin));
     PRECISE float sum = inside.x + inside.y;
-    PRECISE vec2 met = inside * (1.0f / max(sum, 1.0f));
+    PRECISE vec2 met = inside * ((1.0f - margin) / max(sum, 1.0f - margin));
     return met;
 }
 

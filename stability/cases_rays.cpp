@@ -128,13 +128,13 @@ Measured measure_floor_width(Backend& backend, double width, Effort effort) {
 
 /// Inside a closed black room under a bright sky: whatever is seen came through a seam.
 Measured count_leaks(Backend& backend, const Primitive& walls, const dvec3& eye, const dvec3& target, Effort effort,
-                     std::uint32_t depth) {
+                     std::uint32_t depth, double degrees = 100) {
     Scene scene;
     scene.name = "dark room";
     add_material(scene, diffuse(depth > 0 ? 0.5F : 0.0F));
     add_sky(scene, 1);
     add_object(scene, "room", {walls});
-    add_camera(scene, eye, target, 100);
+    add_camera(scene, eye, target, degrees);
     const Film film =
         render(backend, scene, settings_of(2 * side_of(effort), 2 * side_of(effort), depth), spp_of(effort));
     Measured m;
@@ -150,6 +150,16 @@ Measured measure_seams(Backend& backend, double scale, Effort effort) {
     Primitive walls = room(glm::vec3(-1), glm::vec3(1), 0);
     bake(walls, glm::dmat4(glm::dmat3(scale)) * askew());
     return count_leaks(backend, walls, dvec3(0.1, 0.2, 0.5) * scale, dvec3(0, -0.1, -1) * scale, effort, 3);
+}
+
+/// The same, seen as the few ulps about an edge: a point there is beyond one of both walls as soon as it is rounded
+/// outwards.
+Measured measure_edge(Backend& backend, double scale, Effort effort) {
+    Primitive walls = room(glm::vec3(-1), glm::vec3(1), 0);
+    const glm::dmat4 placed = glm::dmat4(glm::dmat3(scale)) * askew();
+    bake(walls, placed);
+    const dvec3 edge = placed * glm::dvec4(1, 0.3, -1, 1);
+    return count_leaks(backend, walls, dvec3(0.1, 0.2, 0.5) * scale, edge, effort, 3, 2e-4);
 }
 
 /// A fine sphere around the camera, its vertices moved and rounded: rays aimed everywhere must meet it.
@@ -257,6 +267,12 @@ void add_ray_cases(std::vector<Case>& cases) {
                      0,
                      "light leaked",
                      measure_seams});
+    cases.push_back({"shadow epsilon",
+                     "no light through an edge that is looked at",
+                     {"scale", 1e-6, 1e6, true, 2, 13},
+                     0,
+                     "light leaked",
+                     measure_edge});
     cases.push_back({"watertightness",
                      "a fine sphere moved to (148376, 1234, -223423)",
                      {"share of the way", 0, 1, false, 2, 5},
