@@ -12,7 +12,7 @@ CONST float OFFSET_LEAST_ULPS = 2.0f;  // of the largest size: an axis-aligned w
 // Barycentrics of hits keep so far from 0. A point on the edge between two walls lies on both but for its rounding: beyond one of them, and
 // a ray would leave the room. This is farther than the roundings of a point add up to, where a triangle is not small beside its
 // distance from its origin.
-CONST float EDGE_MARGIN = 9.5367431640625e-7f;  // 2^-20
+CONST float EDGE_MARGIN = 2.384185791015625e-7f;  // 2^-22
 
 /// The finite point moved off the surface, to the side that the unit normal points to. `magnitude` bounds, coordinate by coordinate,
 /// what was added up to make the point: that, and not how far from 0 the sum came to lie, says how much rounding there may be. So the
