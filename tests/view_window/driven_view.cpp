@@ -18,13 +18,18 @@ std::vector<std::string> arguments(const std::string& scene, const std::string& 
     return all;
 }
 
+std::vector<std::string> environment_on(const VirtualDisplay& display, const std::vector<std::string>& more) {
+    std::vector<std::string> all = {"DISPLAY=" + display.name(), "DIPTYCH_VALIDATION=1"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
 }  // namespace
 
 DrivenView::DrivenView(const VirtualDisplay& display, const TemporaryFolder& folder, const std::string& scene,
-                       const std::vector<std::string>& more)
+                       const std::vector<std::string>& more, const std::vector<std::string>& environment)
     : display_(display), log_(folder.file("log")),
-      process_(folder, arguments(scene, log_, folder.path().string(), more),
-               {"DISPLAY=" + display.name(), "DIPTYCH_VALIDATION=1"}) {
+      process_(folder, arguments(scene, log_, folder.path().string(), more), environment_on(display, environment)) {
     await("opened");
     const std::string found = display.hand({"search", "--name", "diptych"});
     window_ = found.empty() ? 0 : std::stoul(found.substr(0, found.find('\n')));

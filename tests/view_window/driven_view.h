@@ -15,9 +15,10 @@ using Event = nlohmann::json;
 
 class DrivenView {
 public:
-    /// Opens the scene in a window of 640 x 400 with the validation layer at work.
+    /// Opens the scene in a window of 640 x 400 with the validation layer at work; `environment` holds "NAME=VALUE"
+    /// beside its own.
     DrivenView(const VirtualDisplay& display, const TemporaryFolder& folder, const std::string& scene,
-               const std::vector<std::string>& more);
+               const std::vector<std::string>& more, const std::vector<std::string>& environment = {});
 
     /// The first event that `fits` among those that have not been awaited yet; fails the test where none comes. All
     /// before it are passed over.
