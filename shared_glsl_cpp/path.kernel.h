@@ -248,7 +248,7 @@ FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
     v.seen = see_bsdf(v.bsdf, wo, features());
     v.position = surface.position;
     // Nothing is scattered through the surface.
-    v.origin = offset_ray(surface.position, v.bsdf.geometric_normal, surface.magnitude);
+    v.origin = offset_ray(surface.start, v.bsdf.geometric_normal, surface.magnitude);
     v.dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
     v.draws = sample_bits_four_pairs(path.random, v.dimension);
     v.light = NONE;

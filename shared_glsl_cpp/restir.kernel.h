@@ -129,7 +129,7 @@ FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
         LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
         SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
         if ((material.flags & MATERIAL_UNLIT) == 0u && !bsdf_is_purely_delta(bsdf.parameters, features())) {
-            vertex.origin = offset_ray(surface.position, bsdf.geometric_normal, surface.magnitude);
+            vertex.origin = offset_ray(surface.start, bsdf.geometric_normal, surface.magnitude);
             ReuseSurface described = pack_reuse_surface(vertex.origin, bsdf, wo);
             TargetSurface target = unpack_reuse_surface(described);
             if (wants_reuse(bsdf)) {

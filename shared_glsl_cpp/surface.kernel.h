@@ -8,6 +8,7 @@
 struct Surface {
     vec3 position;
     vec3 normal;       // geometric, unit, of the front face
+    vec3 start;        // off the triangle's edges: what offset_ray moves where rays leave
     vec3 magnitude;    // of what `position` was added up from, for offset_ray
     MeshPoint mesh;
     uint instance;
@@ -76,10 +77,9 @@ FN vec2 meet_triangle(vec3 origin, vec3 direction, vec3 vertex, vec3 edge_1, vec
         return fallback;
     }
     PRECISE float inverse = 1.0f / determinant;
-    float margin = MUTANT(HITS_ON_EDGES, EDGE_MARGIN, 0.0f);
-    PRECISE vec2 inside = vec2(max(u * inverse, margin), max(v * inverse, margin));
+    PRECISE vec2 inside = vec2(max(u * inverse, 0.0f), max(v * inverse, 0.0f));
     PRECISE float sum = inside.x + inside.y;
-    PRECISE vec2 met = inside * ((1.0f - margin) / max(sum, 1.0f - margin));
+    PRECISE vec2 met = inside * (1.0f / max(sum, 1.0f));
     return met;
 }
 
@@ -99,6 +99,9 @@ FN Surface load_surface(IN(Hit) hit, IN(Instance) instance, vec3 origin, vec3 di
     s.mesh = mesh_point(g, hit.primitive, barycentrics);
     PRECISE vec3 local = a + barycentrics.x * (b - a) + barycentrics.y * (c - a);
     s.position = transform_point(instance, local);
+    vec2 kept = off_edges(barycentrics);
+    PRECISE vec3 start = s.position + (kept.x - barycentrics.x) * edge_1 + (kept.y - barycentrics.y) * edge_2;
+    s.start = start;
     s.magnitude = transform_magnitude(instance, max(abs(a), max(abs(b), abs(c))));
     vec3 n = exact_cross(edge_1, edge_2);
     s.normal = normalize_or(instance.mirrored != 0u ? -n : n, -direction);

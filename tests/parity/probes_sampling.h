@@ -182,6 +182,12 @@ FN void probe_environment(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
 FN void probe_ray_offset(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_same3(o, offset_ray(p.vertex, p.axis, abs(p.vertex) + abs(p.edge_2)));
     put_same3(o, offset_ray(p.edge_1, p.axis_2, abs(p.edge_1)));
+    vec2 kept = off_edges(sample_triangle(vec2(p.u.x, p.u.y)));
+    vec2 pushed = off_edges(vec2(p.u.z, p.u.w));
+    put(o, kept.x, 1.0f);
+    put(o, kept.y, 1.0f);
+    put(o, pushed.x, 1.0f);
+    put(o, pushed.y, 1.0f);
 }
 
 FN void probe_tonemap(IN(ProbeInput) p, INOUT(ProbeOutput) o) {

@@ -8,6 +8,7 @@
 #include "rng.h"
 #include "stats/chi_square.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace diptych::shared;
@@ -152,6 +153,19 @@ TEST_CASE("offset_ray leaves the surface by little, at every scale") {
             const vec3 back = offset_ray(p, -n, abs(p));
             REQUIRE(dot(back - p, n) < 0);
         }
+    }
+}
+
+TEST_CASE("off_edges moves what lies on an edge, by its margin, and nothing else") {
+    const auto is = [](vec2 moved, float x, float y) { return moved.x == x && moved.y == y; };
+    CHECK(is(off_edges(vec2(0.25f, 0.5f)), 0.25f, 0.5f));
+    CHECK(is(off_edges(vec2(0, 0.5f)), EDGE_MARGIN, 0.5f));
+    CHECK(is(off_edges(vec2(0.5f, 0)), 0.5f, EDGE_MARGIN));
+    CHECK(is(off_edges(vec2(0.5f, 0.5f)), 0.5f * (1 - EDGE_MARGIN), 0.5f * (1 - EDGE_MARGIN)));
+    for (const vec2 corner : {vec2(0, 0), vec2(1, 0), vec2(0, 1)}) {
+        const vec2 moved = off_edges(corner);
+        CHECK(std::min({moved.x, moved.y, 1 - moved.x - moved.y}) > 0.9f * EDGE_MARGIN);
+        CHECK(length(moved - corner) < 3 * EDGE_MARGIN);
     }
 }
 
