@@ -12,6 +12,7 @@ namespace diptych {
 namespace {
 
 constexpr double equality_roundings = 8;
+constexpr double p_beyond_doubt = 1e-9;
 
 /// Sums of `rank` numbers and of their products, over the runs of one side.
 struct Moments {
@@ -148,16 +149,23 @@ ChannelRuns channel_runs(std::span<const Channels> a, std::span<const Channels> 
     }
     const Eigen3 eigen = symmetric_eigen(covariance);
     const double constant = channel_rounding * scale;
+    const double fewest_freedom = static_cast<double>(std::min(a.size(), b.size())) - 1;
+    // Few runs may show next to none of the noise that they have.
+    const auto is_certain = [&](double apart, double error) {
+        return !(error > 0) || student_two_sided(apart / error, fewest_freedom) < p_beyond_doubt;
+    };
     std::vector<std::array<double, 3>> directions;
     for (std::size_t k = 0; k < 3; ++k) {
         const double error = std::sqrt(std::max(0.0, eigen.values[k]));
-        if (error > constant) {
+        const double apart = std::abs(dot(eigen.vectors[k], difference));
+        const bool differs = apart > equality_roundings * constant;
+        if (error > constant || (differs && !is_certain(apart, error))) {
             std::array<double, 3> direction = eigen.vectors[k];
             for (double& x : direction) {
                 x /= error;
             }
             directions.push_back(direction);
-        } else if (std::abs(dot(eigen.vectors[k], difference)) > equality_roundings * constant) {
+        } else if (differs) {
             runs.state = ChannelState::unequal;
         }
     }

@@ -19,7 +19,8 @@ enum class ChannelState {
 
 /// A direction of colour whose difference has a standard error below `rounding` times the brightest mean does not vary:
 /// what is left is the rounding of fp32, which is no two compilers' alike. There, sides are unequal beyond eight times
-/// as much.
+/// as much, if the runs are so many that so small an error is no accident (p of Student's t below 1e-9); else the
+/// direction is tested like any other.
 inline constexpr double channel_rounding = 1e-5;
 
 /// Both sides' runs (a's first) in the directions in which they vary: centred, uncorrelated, in units of the

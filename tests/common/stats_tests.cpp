@@ -109,6 +109,27 @@ TEST_CASE("What does not vary is equal or not, but for rounding") {
     CHECK(channel_runs(a, b).state == ChannelState::unequal);
 }
 
+TEST_CASE("Few runs that by chance vary little in one direction are not taken for constant ones") {
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> normal;
+    int unequal = 0;
+    int rejected = 0;
+    constexpr int draws = 20000;
+    for (int i = 0; i < draws; ++i) {
+        std::vector<Channels> sides[2];
+        for (std::vector<Channels>& side : sides) {
+            for (int run = 0; run < 3; ++run) {
+                side.push_back({1 + 0.1 * normal(random), 1 + 0.1 * normal(random), 1 + 5e-5 * normal(random)});
+            }
+        }
+        const ChannelRuns runs = channel_runs(sides[0], sides[1]);
+        unequal += runs.state == ChannelState::unequal ? 1 : 0;
+        rejected += channel_p(runs) < 1e-3 ? 1 : 0;
+    }
+    CHECK(unequal == 0);
+    CHECK(rejected < 40);  // of 20 expected, at most
+}
+
 TEST_CASE("Draws without a difference have uniform p-values, whatever the sides' noise") {
     std::mt19937_64 random(3);
     std::normal_distribution<double> normal;
