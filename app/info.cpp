@@ -123,8 +123,10 @@ nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, con
     const std::unique_ptr<Renderer> renderer = make_renderer(scene, packed, request);
     json["backend"] = renderer->backend();
     json["device"] = renderer->device();
-    json["acceleration_structures"] = renderer->costs().acceleration_bytes;
-    json["bytes"] = bytes + renderer->costs().acceleration_bytes;
+    const RendererCosts costs = renderer->costs();
+    json["acceleration_structures"] = costs.acceleration_bytes;
+    json["between_passes"] = costs.pass_bytes;
+    json["bytes"] = bytes + costs.acceleration_bytes + costs.pass_bytes;
     json["warnings"] = scene.warnings;
     return json;
 }
@@ -164,6 +166,9 @@ void print_info(const nlohmann::ordered_json& json) {
         part(name, bytes);
     }
     part("acceleration structures", json.at("acceleration_structures"));
+    if (number("between_passes") > 0) {
+        part("between passes", json.at("between_passes"));
+    }
 }
 
 int run_info(InfoOptions options) {

@@ -15,9 +15,12 @@ struct Dispatch {
     uint first_ray;          // of this dispatch, when recorded rays are traced again
     uint first_path;         // of this dispatch, when listed paths are traced
     uint vertices_per_path;  // that are kept of each
+    uvec2 region;            // pixels of the slice
+    uint path_capacity;      // that there is room for in a queue
+    uint wave;               // since the submission began
     ResamplingPass pass;
 };
-ASSERT_SIZE(Dispatch, 56);
+ASSERT_SIZE(Dispatch, 72);
 
 /// One ray as the integrator asked for it.
 struct RecordedRay {

@@ -6,11 +6,17 @@
 #extension GL_EXT_buffer_reference : require
 
 #include "dispatch.h"
+#include "hit.h"
+#include "wave.h"
 #include "film_pixel.h"
 #include "path_record.h"
 #include "scene_buffers.h"
 #include "resampling_memory.h"
 #include "scene_features.h"
+
+#ifndef RECORD
+#define RECORD(field, value)
+#endif
 
 layout(constant_id = 0) const uint FEATURES = 0xffffffffu;
 
@@ -52,6 +58,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer path_vertic
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer path_summaries_buffer { PathSummary data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer grouped_geometries_buffer { uvec2 data[]; };
 
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer wave_paths_buffer { WavePath data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer wave_first_hits_buffer { FirstHit data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer wave_queues_buffer { uint data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer wave_hits_buffer { Hit data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer wave_shadows_buffer { WaveShadow data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer wave_counts_buffer { WaveCounts data[]; };
+
 // Mirrored by vk_backend/scene_addresses.h.
 layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
 #define DECLARE_ADDRESS(Type, name) name##_buffer name;
@@ -69,6 +82,12 @@ layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
     path_vertices_buffer path_vertices;
     path_summaries_buffer path_summaries;
     grouped_geometries_buffer grouped_geometries;
+    wave_paths_buffer wave_paths;
+    wave_first_hits_buffer wave_first_hits;
+    wave_queues_buffer wave_queues;
+    wave_hits_buffer wave_hits;
+    wave_shadows_buffer wave_shadows;
+    wave_counts_buffer wave_counts;
 } addresses;
 
 layout(set = 0, binding = 2, scalar) uniform Constants { RenderConstants constants; };

@@ -2,16 +2,10 @@
 #ifndef TRACE_HOOKS_GLSL
 #define TRACE_HOOKS_GLSL
 
-#include "scene_hooks.glsl"
+#include "dispatch_block.glsl"
 #include "payload.glsl"
 
-#ifndef RECORD
-#define RECORD(field, value)
-#endif
-
 layout(constant_id = 1) const uint RECORD_RAYS = 0u;
-
-layout(push_constant, scalar) uniform DispatchBlock { Dispatch value; } dispatch_block;
 
 layout(set = 0, binding = 0) uniform accelerationStructureEXT scene_structure;
 

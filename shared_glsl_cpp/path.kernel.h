@@ -14,6 +14,15 @@ struct PathSample {
     FirstHit first_hit;
 };
 
+/// Of a sample that hits nothing.
+FN FirstHit no_first_hit() {
+    FirstHit hit;
+    hit.albedo = vec3(0.0f, 0.0f, 0.0f);
+    hit.normal = vec3(0.0f, 0.0f, 0.0f);
+    hit.depth = 0.0f;
+    return hit;
+}
+
 /// Russian roulette starts at this vertex and never kills with a probability below 5 %.
 FN float survival_probability(vec3 throughput, uint depth) {
     return depth < 3u ? 1.0f : min(max_component(throughput), 0.95f);
@@ -142,9 +151,7 @@ FN PathState begin_path(uvec2 pixel, uint sample_index) {
     path.random = make_sampler(pixel, sample_index, constants.seed, constants.sampler_kind, constants.sample_count);
     path.found.radiance = vec3(0.0f, 0.0f, 0.0f);
     path.found.rays = 0u;
-    path.found.first_hit.albedo = vec3(0.0f, 0.0f, 0.0f);
-    path.found.first_hit.normal = vec3(0.0f, 0.0f, 0.0f);
-    path.found.first_hit.depth = 0.0f;
+    path.found.first_hit = no_first_hit();
 
     vec2 jitter = sample_2d(path.random, DIMENSION_FILM);
     uvec2 place = pixel;
@@ -261,7 +268,7 @@ FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
 }
 
 /// Samples the light picked, or takes what resampling chose, and scatters the path. Visibility of the light is left to the caller, so
-/// that a GPU has one place where it traces and keeps no surface across it.
+/// that a GPU keeps no surface while it traces.
 FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
     uint depth = path.depth;
     if (path.light_is_complete || v.light != NONE) {
@@ -328,19 +335,6 @@ FN void settle_direct_light(INOUT(PathState) path, bool occluded) {
         path.found.radiance += path.direct.radiance;
     }
     path.direct.radiance = vec3(0.0f, 0.0f, 0.0f);
-}
-
-/// One path from its camera to its end. The Vulkan backend takes these steps by itself, to trace in one place (film_entry.glsl).
-FN PathSample trace_path(uvec2 pixel, uint sample_index) {
-    PathState path = begin_path(pixel, sample_index);
-    while (path.goes_on) {
-        extend_path(path, trace_closest(path.origin, path.direction, next_ray_key(path)));
-        if (awaits_shadow_ray(path)) {
-            settle_direct_light(
-                path, trace_any(path.origin, path.direct.direction, path.direct.t_max, shadow_ray_key(path)));
-        }
-    }
-    return path.found;
 }
 
 /// Adds one sample to its pixel's film.

@@ -29,23 +29,23 @@ std::uint32_t memory_type(const Gpu& gpu, std::uint32_t allowed, MemoryKind kind
     throw Error("Vulkan device " + gpu.name + ": no fitting memory type");
 }
 
-// Asked for more, some drivers promise it all the same.
-std::uint64_t largest_heap(const Gpu& gpu) {
+}  // namespace
+
+std::uint64_t largest_heap(const Gpu& gpu, vk::MemoryHeapFlags flags) {
     std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < gpu.memory.memoryHeapCount; ++i) {
-        bytes = std::max(bytes, gpu.memory.memoryHeaps[i].size);
+        const vk::MemoryHeap& heap = gpu.memory.memoryHeaps[i];
+        bytes = std::max(bytes, (heap.flags & flags) == flags ? heap.size : 0);
     }
     return bytes;
 }
-
-}  // namespace
 
 Buffer make_buffer(const Gpu& gpu, const char* what, std::uint64_t size, vk::BufferUsageFlags usage, MemoryKind kind) {
     Buffer buffer;
     if (size == 0) {
         return buffer;
     }
-    if (size > largest_heap(gpu)) {
+    if (size > largest_heap(gpu)) {  // asked for more, some drivers promise it all the same
         throw Error("Vulkan device " + gpu.name + ": " + what + ": " + std::to_string(size) +
                     " bytes are more than it has");
     }

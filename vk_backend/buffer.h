@@ -21,6 +21,9 @@ struct Buffer {
     void* mapped = nullptr;         // where the host can reach it
 };
 
+/// Bytes of the largest heap that has these flags.
+std::uint64_t largest_heap(const Gpu& gpu, vk::MemoryHeapFlags flags = {});
+
 /// Throws Error where memory runs out, naming `what`. A size of 0 gives a buffer without handle, at address 0.
 Buffer make_buffer(const Gpu& gpu, const char* what, std::uint64_t size, vk::BufferUsageFlags usage, MemoryKind kind);
 

@@ -46,7 +46,9 @@ void note_missing_features(const vk::raii::PhysicalDevice& device, std::vector<s
     note(vulkan12.scalarBlockLayout, "scalarBlockLayout");
     note(chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure,
          "accelerationStructure");
-    note(chain.get<vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>().rayTracingPipeline, "rayTracingPipeline");
+    const auto& pipeline = chain.get<vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>();
+    note(pipeline.rayTracingPipeline, "rayTracingPipeline");
+    note(pipeline.rayTracingPipelineTraceRaysIndirect, "rayTracingPipelineTraceRaysIndirect");
 }
 
 std::vector<std::string> find_lacks(const vk::raii::PhysicalDevice& device) {

@@ -25,7 +25,8 @@ void require_presentation(const vk::raii::PhysicalDevice& physical, std::uint32_
 vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t family, bool presents) {
     const float priority = 1.0F;
     const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
-    vk::PhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{.rayTracingPipeline = VK_TRUE};
+    vk::PhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{.rayTracingPipeline = VK_TRUE,
+                                                             .rayTracingPipelineTraceRaysIndirect = VK_TRUE};
     vk::PhysicalDeviceAccelerationStructureFeaturesKHR structures{.pNext = &pipeline, .accelerationStructure = VK_TRUE};
     vk::PhysicalDeviceVulkan12Features vulkan12;
     vulkan12.pNext = &structures;

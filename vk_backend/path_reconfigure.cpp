@@ -65,6 +65,7 @@ void PathRenderer::replace_structures_of(const PackedScene& packed) {
 
 void PathRenderer::replace_film() {
     begin_film();
+    replace_waves();
     if (!fits(*resampling_, constants_)) {
         resampling_ = std::make_shared<ResamplingMemory>(make_resampling_memory(*gpu_, constants_));
     }

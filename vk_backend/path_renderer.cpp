@@ -24,6 +24,8 @@ PathRendererOptions with_options(PathRendererOptions changes, const VulkanOption
     return changes;
 }
 
+constexpr std::uint64_t least_slice = 4096;  // paths
+
 }  // namespace
 
 PipelineShaders scene_shaders(Spirv ray_generation, bool alpha) {
@@ -45,7 +47,7 @@ void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipelin
                      std::uint32_t width, std::uint32_t height) {
     commands.bindPipeline(vk::PipelineBindPoint::eRayTracingKHR, *pipeline.pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eRayTracingKHR, *layout.layout, 0, bindings.set, {});
-    commands.pushConstants<shared::Dispatch>(*layout.layout, vk::ShaderStageFlagBits::eRaygenKHR, 0, dispatch);
+    commands.pushConstants<shared::Dispatch>(*layout.layout, pushed_stages, 0, dispatch);
     trace(commands, pipeline, width, height);
 }
 
@@ -63,6 +65,7 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
     const auto size = glm::ivec2(constants_.size);
     in_context("making the film", [&] {
         film_ = films_.emplace_back(std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_)));
+        replace_waves();
         resampling_ = std::make_shared<ResamplingMemory>(make_resampling_memory(*gpu_, constants_));
     });
     costs_.build_seconds = seconds_since(start);
@@ -88,8 +91,19 @@ void PathRenderer::build_structures(const PackedScene& packed) {
 void PathRenderer::count_bytes() {
     costs_.acceleration_bytes =
         bottom_.bytes + bottom_.grouped_geometries.size + top_.storage.size + previous_top_.storage.size;
-    costs_.bytes = scene_bytes(scene_) + costs_.acceleration_bytes + films_.size() * film_bytes(*film_) +
-                   resampling_memory_bytes(*resampling_);
+    costs_.pass_bytes = resampling_memory_bytes(*resampling_) + wave_memory_bytes(waves_);
+    costs_.bytes =
+        scene_bytes(scene_) + costs_.acceleration_bytes + films_.size() * film_bytes(*film_) + costs_.pass_bytes;
+}
+
+void PathRenderer::replace_waves() {
+    const std::uint64_t pixels = std::uint64_t{constants_.size.x} * constants_.size.y;
+    const std::uint32_t capacity = resamples() ? 0 : path_capacity(*gpu_, pixels);
+    const std::uint32_t features = resamples() ? 0 : features_;
+    if (!fits(waves_, capacity, features)) {
+        waves_ = WaveMemory();
+        waves_ = capacity > 0 ? make_wave_memory(*gpu_, capacity, features) : WaveMemory();
+    }
 }
 
 // An empty film that nobody looks at: what is shown stays whole while the next picture begins. There are as many of
@@ -121,17 +135,21 @@ SceneAddresses PathRenderer::addresses(const FilmMemory& film) const {
     all.grouped_geometries = bottom_.grouped_geometries.address;
     enter_film(all, film);
     enter_resampling(all, *resampling_);
+    enter_waves(all, waves_);
     return all;
+}
+
+PipelineConstants PathRenderer::pipeline_constants(bool record_rays) const {
+    return {
+        .features = features_, .record_rays = record_rays ? 1U : 0U, .groups = bottom_.groups.groups.empty() ? 0U : 1U};
 }
 
 TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) const {
     const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
     const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
     const bool alpha = (features_ & shared::FEATURE_ALPHA) != 0;
-    TracePipeline pipeline = make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha),
-                                           {.features = features_,
-                                            .record_rays = record_rays ? 1U : 0U,
-                                            .groups = bottom_.groups.groups.empty() ? 0U : 1U});
+    TracePipeline pipeline =
+        make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha), pipeline_constants(record_rays));
     save_pipeline_cache(cache, cache_path);
     return pipeline;
 }
@@ -144,11 +162,29 @@ const TracePipeline& PathRenderer::pipeline(Spirv ray_generation) {
     return pipelines_.emplace(key, compile(ray_generation, false)).first->second;
 }
 
+const vk::raii::Pipeline& PathRenderer::compute_pipeline(Spirv shader) {
+    const auto key = std::tuple(shader.data(), features_);
+    if (const auto found = compute_pipelines_.find(key); found != compute_pipelines_.end()) {
+        return found->second;
+    }
+    const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
+    const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
+    // Groups are the hit shaders' affair, so the key goes without.
+    vk::raii::Pipeline made = make_compute_pipeline(*gpu_, layout_, cache, shader, pipeline_constants(false));
+    save_pipeline_cache(cache, cache_path);
+    return compute_pipelines_.emplace(key, std::move(made)).first->second;
+}
+
 void PathRenderer::choose_pipelines() {
-    path_ = nullptr;
+    wave_pipelines_ = {};
     stages_.fill(nullptr);
     if (!resamples()) {
-        path_ = &pipeline(changes_.ray_generation.empty() ? shader_binary("path.rgen") : changes_.ray_generation);
+        const bool samples_lights = (features_ & shared::FEATURE_LIGHT_SAMPLING) != 0;
+        wave_pipelines_ = {.begin = &compute_pipeline(shader_binary("wave_begin.comp")),
+                           .rays = &pipeline(shader_binary("wave_rays.rgen")),
+                           .shade = &compute_pipeline(shader_binary("wave_shade.comp")),
+                           .shadows = samples_lights ? &pipeline(shader_binary("wave_shadows.rgen")) : nullptr,
+                           .film = &compute_pipeline(shader_binary("wave_film.comp"))};
     }
     for (std::size_t i = 0; resamples() && i < resampling_stages; ++i) {
         const auto stage = static_cast<ResamplingStage>(i);
@@ -162,7 +198,7 @@ void PathRenderer::bind(const PackedScene& packed) {
     const TopLevel& previous = packed.keeps_previous ? previous_top_ : top_;
     bindings_ = make_bindings(*gpu_, layout_, *top_.structure, *previous.structure, addresses(*film_), constants_);
     if (!resamples()) {
-        warm_up(*path_, bindings_);
+        warm_up();
     }
 }
 
@@ -172,10 +208,16 @@ void PathRenderer::require_bound() const {
     }
 }
 
-// Some drivers compile at the first dispatch. This one adds no samples, and keeps that time out of the measured ones.
-void PathRenderer::warm_up(const TracePipeline& pipeline, const Bindings& bindings) const {
+// Some drivers compile at the first dispatch. This path is added to no film, and keeps that time out of the measured
+// ones.
+void PathRenderer::warm_up() const {
     run_commands(*gpu_, [&](const vk::raii::CommandBuffer& commands) {
-        record_dispatch(commands, pipeline, layout_, bindings, shared::Dispatch{}, 1, 1);
+        SliceWaves path(wave_pipelines_, layout_, bindings_, waves_, {{0, 0, 1, 1}, 0, 1});
+        SliceWaves nothing(wave_pipelines_, layout_, bindings_, waves_, {{0, 0, 1, 1}, 0, 0});
+        path.begin(commands);
+        path.step(commands);
+        path.step(commands);  // the first that may trace a shadow ray
+        nothing.finish(commands);
         full_barrier(commands);
     });
 }
@@ -236,14 +278,41 @@ std::uint64_t PathRenderer::slice_budget() const {
 void PathRenderer::render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
     SliceCursor cursor({0, 0, constants_.size.x, constants_.size.y}, first, count);
     while (!cursor.done() && !cancel.load()) {
-        const Slice slice = cursor.next(slice_budget(), gpu_->ray_tracing.maxRayDispatchInvocationCount);
-        shared::Dispatch dispatch{};
-        dispatch.origin = {slice.region.x, slice.region.y};
-        dispatch.first_sample = slice.first_sample;
-        dispatch.sample_count = slice.sample_count;
-        queue_->submit(slice.work(), [&](const vk::raii::CommandBuffer& commands) {
-            record_dispatch(commands, *path_, layout_, bindings_, dispatch, slice.region.width, slice.region.height);
+        submit_slice(*queue_, wave_pipelines_, bindings_, next_slice(cursor, speed_));
+    }
+}
+
+// Waves take time whatever they hold, so no slice is cut as short as one likes.
+Slice PathRenderer::next_slice(SliceCursor& cursor, const SpeedEstimate& speed) const {
+    const std::uint64_t budget =
+        changes_.slice_budget > 0 ? changes_.slice_budget : std::max(speed.budget(), least_slice);
+    return cursor.next(std::min<std::uint64_t>(budget, waves_.capacity),
+                       gpu_->ray_tracing.maxRayDispatchInvocationCount);
+}
+
+// As many waves as the deepest path may take: rays that end at its last vertex find light there, and ask for none. Of
+// very many waves, those that come after all paths have ended are left out.
+void PathRenderer::submit_slice(TimedQueue& queue, const WavePipelines& pipelines, const Bindings& bindings,
+                                const Slice& slice, std::uint32_t ray_capacity) const {
+    SliceWaves waves(pipelines, layout_, bindings, waves_, slice, ray_capacity);
+    std::uint64_t steps = std::uint64_t{constants_.max_depth} + 1;
+    const auto submit = [&](std::uint64_t work, auto&& start) {
+        queue.submit(work, [&](const vk::raii::CommandBuffer& commands) {
+            start(commands);
+            for (std::uint32_t i = 0; i < SliceWaves::most_steps && steps > 0; ++i, --steps) {
+                waves.step(commands);
+            }
+            if (steps == 0) {
+                waves.finish(commands);
+            }
         });
+    };
+    submit(slice.work(), [&](const auto& commands) { waves.begin(commands); });
+    while (steps > 0) {
+        queue.drain();
+        const shared::WaveCounts left = waves.counts_left(*gpu_);
+        steps = left.rays.x > 0 ? steps : 1;  // for shadow rays that may be left
+        submit(0, [&](const auto& commands) { waves.resume(commands, left); });
     }
 }
 

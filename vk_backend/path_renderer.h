@@ -12,6 +12,7 @@
 #include "bindings.h"
 #include "device_film.h"
 #include "film_memory.h"
+#include "path_waves.h"
 #include "pipeline.h"
 #include "pipeline_cache.h"
 #include "resampling_passes.h"
@@ -28,7 +29,6 @@ enum class Grouping { nowhere, on_gpus, anywhere };
 
 /// What tests change.
 struct PathRendererOptions {
-    Spirv ray_generation;            // instead of path.rgen
     std::uint64_t slice_budget = 0;  // pixel samples a dispatch, whatever the measured speed
     Grouping grouping = Grouping::on_gpus;
 };
@@ -63,11 +63,13 @@ public:
     /// Seconds of device time a dispatch may take from now on: whoever shares the queue waits for two of them at most.
     void aim_dispatches(double seconds);
     /// Since the renderer was made.
-    std::size_t pipelines_compiled() const { return pipelines_.size(); }
+    std::size_t pipelines_compiled() const { return pipelines_.size() + compute_pipelines_.size(); }
 
 private:
+    PipelineConstants pipeline_constants(bool record_rays) const;
     TracePipeline compile(Spirv ray_generation, bool record_rays) const;
     const TracePipeline& pipeline(Spirv ray_generation);
+    const vk::raii::Pipeline& compute_pipeline(Spirv shader);
     void choose_pipelines();
     void bind(const PackedScene& packed);
     void require_bound() const;
@@ -75,6 +77,7 @@ private:
     void replace_structures_of(const PackedScene& packed);
     void replace_film();
     void count_bytes();
+    void replace_waves();
     void begin_film();
     SceneAddresses addresses(const FilmMemory& film) const;
     void render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
@@ -82,7 +85,10 @@ private:
     void show_reservoirs(const ResamplingStep& step);
     std::uint64_t slice_budget() const;
     bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
-    void warm_up(const TracePipeline& pipeline, const Bindings& bindings) const;
+    void warm_up() const;
+    Slice next_slice(SliceCursor& cursor, const SpeedEstimate& speed) const;
+    void submit_slice(TimedQueue& queue, const WavePipelines& pipelines, const Bindings& bindings, const Slice& slice,
+                      std::uint32_t ray_capacity = 0) const;
     std::vector<shared::PathSummary> summarize(std::span<const shared::PathQuery> queries,
                                                const shared::RenderConstants& constants);
     void trace_listed(std::span<const shared::PathQuery> queries, const shared::RenderConstants& constants,
@@ -103,7 +109,9 @@ private:
     PipelineLayout layout_;
     std::map<std::tuple<const std::uint32_t*, std::uint32_t, bool>, TracePipeline>
         pipelines_;  // by ray generation shader, features, groups
-    const TracePipeline* path_ = nullptr;
+    std::map<std::tuple<const std::uint32_t*, std::uint32_t>, vk::raii::Pipeline> compute_pipelines_;  // by shader, features
+    WavePipelines wave_pipelines_;
+    WaveMemory waves_;
     std::shared_ptr<ResamplingMemory> resampling_;
     std::array<const TracePipeline*, resampling_stages> stages_{};
     ResamplingSchedule schedule_;

@@ -1,6 +1,7 @@
 #include "pipeline.h"
 
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace diptych {
 namespace {
 
 using Stage = vk::ShaderStageFlagBits;
-constexpr vk::ShaderStageFlags reading_stages = Stage::eRaygenKHR | Stage::eClosestHitKHR | Stage::eAnyHitKHR;
+constexpr vk::ShaderStageFlags reading_stages =
+    Stage::eRaygenKHR | Stage::eClosestHitKHR | Stage::eAnyHitKHR | Stage::eCompute;
 
 vk::RayTracingShaderGroupCreateInfoKHR general_group(std::uint32_t stage) {
     return {.type = vk::RayTracingShaderGroupTypeKHR::eGeneral,
@@ -27,6 +29,19 @@ vk::RayTracingShaderGroupCreateInfoKHR hit_group(std::uint32_t closest_hit, std:
             .closestHitShader = closest_hit,
             .anyHitShader = any_hit,
             .intersectionShader = VK_SHADER_UNUSED_KHR};
+}
+
+// Refers to the constants.
+vk::SpecializationInfo specialize(const PipelineConstants& constants) {
+    static constexpr std::array<vk::SpecializationMapEntry, 3> entries = {{
+        {.constantID = 0, .offset = offsetof(PipelineConstants, features), .size = 4},
+        {.constantID = 1, .offset = offsetof(PipelineConstants, record_rays), .size = 4},
+        {.constantID = 2, .offset = offsetof(PipelineConstants, groups), .size = 4},
+    }};
+    return {.mapEntryCount = entries.size(),
+            .pMapEntries = entries.data(),
+            .dataSize = sizeof(constants),
+            .pData = &constants};
 }
 
 constexpr std::uint32_t group_count = 5;  // ray generation; two miss; two hit
@@ -84,7 +99,7 @@ PipelineLayout make_pipeline_layout(const Gpu& gpu) {
     vk::DescriptorSetLayoutCreateInfo set;
     set.setBindings(bindings);
     made.set = gpu.device.createDescriptorSetLayout(set);
-    const vk::PushConstantRange range{.stageFlags = Stage::eRaygenKHR, .size = sizeof(shared::Dispatch)};
+    const vk::PushConstantRange range{.stageFlags = pushed_stages, .size = sizeof(shared::Dispatch)};
     vk::PipelineLayoutCreateInfo layout;
     layout.setSetLayouts(*made.set).setPushConstantRanges(range);
     made.layout = gpu.device.createPipelineLayout(layout);
@@ -93,14 +108,7 @@ PipelineLayout make_pipeline_layout(const Gpu& gpu) {
 
 TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const vk::raii::PipelineCache& cache,
                             const PipelineShaders& shaders, const PipelineConstants& constants) {
-    const std::array<std::uint32_t, 3> values = {constants.features, constants.record_rays, constants.groups};
-    const std::array<vk::SpecializationMapEntry, 3> entries = {{
-        {.constantID = 0, .offset = 0, .size = 4},
-        {.constantID = 1, .offset = 4, .size = 4},
-        {.constantID = 2, .offset = 8, .size = 4},
-    }};
-    vk::SpecializationInfo specialization;
-    specialization.setMapEntries(entries).setData<std::uint32_t>(values);
+    const vk::SpecializationInfo specialization = specialize(constants);
 
     std::vector<vk::raii::ShaderModule> modules;
     std::vector<vk::PipelineShaderStageCreateInfo> stages;
@@ -132,6 +140,25 @@ TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const 
                                 [&] { return gpu.device.createRayTracingPipelineKHR(nullptr, cache, info); });
     fill_table(gpu, built);
     return built;
+}
+
+vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const PipelineLayout& layout,
+                                         const vk::raii::PipelineCache& cache, Spirv shader,
+                                         const PipelineConstants& constants) {
+    const vk::SpecializationInfo specialization = specialize(constants);
+    const vk::raii::ShaderModule module =
+        gpu.device.createShaderModule({.codeSize = shader.size_bytes(), .pCode = shader.data()});
+    return in_context("compiling the shaders", [&] {
+        return gpu.device.createComputePipeline(cache, {.stage = {.stage = Stage::eCompute,
+                                                                  .module = *module,
+                                                                  .pName = "main",
+                                                                  .pSpecializationInfo = &specialization},
+                                                        .layout = *layout.layout});
+    });
+}
+
+void trace_indirect(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, vk::DeviceAddress command) {
+    commands.traceRaysIndirectKHR(pipeline.ray_generation, pipeline.miss, pipeline.hit, {}, command);
 }
 
 void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::uint32_t width,

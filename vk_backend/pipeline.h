@@ -1,4 +1,4 @@
-// Ray-tracing pipelines with their shader binding tables.
+// Ray-tracing pipelines with their shader binding tables, and compute pipelines beside them.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,9 @@ struct PipelineLayout {
     vk::raii::DescriptorSetLayout set = nullptr;
     vk::raii::PipelineLayout layout = nullptr;
 };
+
+/// Stages that read the push constants.
+constexpr vk::ShaderStageFlags pushed_stages = vk::ShaderStageFlagBits::eRaygenKHR | vk::ShaderStageFlagBits::eCompute;
 
 PipelineLayout make_pipeline_layout(const Gpu& gpu);
 
@@ -45,6 +48,14 @@ struct PipelineConstants {
 
 TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const vk::raii::PipelineCache& cache,
                             const PipelineShaders& shaders, const PipelineConstants& constants);
+
+/// Of a shader that computes over what the pipelines bind.
+vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const PipelineLayout& layout,
+                                         const vk::raii::PipelineCache& cache, Spirv shader,
+                                         const PipelineConstants& constants);
+
+/// Traces as many rays as an indirect command in device memory says.
+void trace_indirect(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, vk::DeviceAddress command);
 
 /// Traces width x height rays.
 void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::uint32_t width,

@@ -24,6 +24,12 @@ struct SceneAddresses {
     std::uint64_t path_vertices = 0;
     std::uint64_t path_summaries = 0;
     std::uint64_t grouped_geometries = 0;
+    std::uint64_t wave_paths = 0;
+    std::uint64_t wave_first_hits = 0;
+    std::uint64_t wave_queues = 0;
+    std::uint64_t wave_hits = 0;
+    std::uint64_t wave_shadows = 0;
+    std::uint64_t wave_counts = 0;
 };
 
 }  // namespace diptych

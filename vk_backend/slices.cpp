@@ -58,7 +58,10 @@ void SpeedEstimate::aim(double target_seconds) {
 // The estimate may fall by half a step at most, as cheap parts of an image are followed by dear ones, and the budget
 // grows eightfold.
 void SpeedEstimate::learn(std::uint64_t work, double seconds) {
-    const double measured = std::max(seconds, 1e-9) / static_cast<double>(std::max<std::uint64_t>(work, 1));
+    if (work == 0) {
+        return;
+    }
+    const double measured = std::max(seconds, 1e-9) / static_cast<double>(work);
     seconds_per_work_ = std::max(measured, seconds_per_work_ * 0.5);
     budget_ = std::min(wanted(), std::max(budget_, work) * 8);
 }

@@ -1,4 +1,4 @@
-// A render cut into dispatches, none of which takes long.
+// A render cut into submissions, none of which takes long.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct Region {
     std::uint32_t height = 0;
 };
 
-/// One dispatch: some pixels, some samples of each.
+/// What one does: some pixels, some samples of each.
 struct Slice {
     Region region;
     std::uint32_t first_sample = 0;
@@ -49,6 +49,7 @@ public:
     std::uint64_t budget() const { return budget_; }
     /// From now on, dispatches of so many seconds.
     void aim(double target_seconds);
+    /// Nothing from no work.
     void learn(std::uint64_t work, double seconds);
 
 private:

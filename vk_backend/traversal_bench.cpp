@@ -25,14 +25,6 @@ struct Block {
     std::uint32_t samples = 0;
 };
 
-std::uint64_t device_bytes(const Gpu& gpu) {
-    std::uint64_t bytes = 0;
-    for (std::uint32_t i = 0; i < gpu.memory.memoryHeapCount; ++i) {
-        bytes = std::max(bytes, gpu.memory.memoryHeaps[i].size);
-    }
-    return bytes;
-}
-
 // The bench's own buffers.
 struct RayMemory {
     std::uint32_t capacity = 0;
@@ -60,34 +52,15 @@ std::uint64_t count_rays(const Gpu& gpu, const RayMemory& memory) {
     return std::uint64_t{counters.closest} + counters.any;
 }
 
-// One pipeline over one block or list of rays, cut into dispatches, in the device's seconds. What is learned of the
-// pipeline's speed lasts from run to run, so that only the first is cut small.
-struct Runner {
+// Rays traced again, cut into dispatches.
+struct Tracer {
     const Gpu& gpu;
     const PipelineLayout& layout;
     const TracePipeline& pipeline;
     const Bindings& bindings;
-    SpeedEstimate speed{};
+    SpeedEstimate speed{};  // which lasts, so that only the first run is cut small
 
-    double integrate(const Block& block, std::uint32_t ray_capacity) {
-        TimedQueue queue(gpu, [&](std::uint64_t work, double seconds) { speed.learn(work, seconds); });
-        SliceCursor cursor(block.region, 0, block.samples);
-        while (!cursor.done()) {
-            const Slice slice = cursor.next(speed.budget(), gpu.ray_tracing.maxRayDispatchInvocationCount);
-            shared::Dispatch dispatch{};
-            dispatch.origin = {slice.region.x, slice.region.y};
-            dispatch.first_sample = slice.first_sample;
-            dispatch.sample_count = slice.sample_count;
-            dispatch.ray_capacity = ray_capacity;
-            queue.submit(slice.work(), [&](const vk::raii::CommandBuffer& commands) {
-                record_dispatch(commands, pipeline, layout, bindings, dispatch, slice.region.width,
-                                slice.region.height);
-            });
-        }
-        queue.drain();
-        return queue.seconds();
-    }
-
+    /// In the device's seconds.
     double trace(std::uint64_t rays) {
         TimedQueue queue(gpu, [&](std::uint64_t work, double seconds) { speed.learn(work, seconds); });
         for (std::uint64_t ray = 0; ray < rays;) {
@@ -110,7 +83,11 @@ struct Runner {
 TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
     require_bound();
     return in_context("measuring traversal", [&] {
-        const TracePipeline recording = compile(shader_binary("path.rgen"), true);
+        const TracePipeline recording_rays = compile(shader_binary("wave_rays.rgen"), true);
+        const TracePipeline recording_shadows = compile(shader_binary("wave_shadows.rgen"), true);
+        WavePipelines recording = wave_pipelines_;
+        recording.rays = &recording_rays;
+        recording.shadows = recording.shadows != nullptr ? &recording_shadows : nullptr;
         const TracePipeline bare = compile(shader_binary("bare.rgen"), false);
         const FilmMemory film = make_film(*gpu_, film_->width, film_->height, features_);
         const auto bind = [&](const RayMemory& memory) {
@@ -119,14 +96,25 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
             all.ray_counters = memory.counters.address;
             return make_bindings(*gpu_, layout_, *top_.structure, *top_.structure, all, constants_);
         };
+        SpeedEstimate speed(dispatch_seconds_);  // of this integrator, for all runs
+        const auto integrate = [&](const WavePipelines& pipelines, const Bindings& bindings, const Block& block,
+                                   std::uint32_t ray_capacity) {
+            TimedQueue queue(*gpu_, [&](std::uint64_t work, double seconds) { speed.learn(work, seconds); });
+            SliceCursor cursor(block.region, 0, block.samples);
+            while (!cursor.done()) {
+                submit_slice(queue, pipelines, bindings, next_slice(cursor, speed), ray_capacity);
+            }
+            queue.drain();
+            return queue.seconds();
+        };
         // Recorded without room, a block tells how many rays it has.
         const auto rays_of = [&](const Block& block) {
             const RayMemory memory = make_ray_memory(*gpu_, 0);
             const Bindings bindings = bind(memory);
-            Runner{*gpu_, layout_, recording, bindings}.integrate(block, 0);
+            integrate(recording, bindings, block, 0);
             return count_rays(*gpu_, memory);
         };
-        const std::uint64_t room = std::min(most_ray_bytes, device_bytes(*gpu_) / 4) / sizeof(shared::RecordedRay);
+        const std::uint64_t room = std::min(most_ray_bytes, largest_heap(*gpu_) / 4) / sizeof(shared::RecordedRay);
         Block block{{0, 0, constants_.size.x, constants_.size.y}, std::max(samples, 1U)};
         std::uint64_t rays = rays_of(block);
         while (rays > room && block.region.height > 1) {
@@ -140,16 +128,14 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
         }
         const RayMemory memory = make_ray_memory(*gpu_, static_cast<std::uint32_t>(rays));
         const Bindings bindings = bind(memory);
-        warm_up(bare, bindings);
-        Runner{*gpu_, layout_, recording, bindings}.integrate(block, memory.capacity);
-        Runner integrator{*gpu_, layout_, *path_, bindings};
-        Runner traversal{*gpu_, layout_, bare, bindings};
-        integrator.integrate(block, 0);
+        integrate(recording, bindings, block, memory.capacity);
+        Tracer traversal{*gpu_, layout_, bare, bindings};
+        integrate(wave_pipelines_, bindings, block, 0);
         traversal.trace(rays);
         std::vector<double> integrator_seconds;
         std::vector<double> bare_seconds;
         for (int i = 0; i < repeats; ++i) {
-            integrator_seconds.push_back(integrator.integrate(block, 0));
+            integrator_seconds.push_back(integrate(wave_pipelines_, bindings, block, 0));
             bare_seconds.push_back(traversal.trace(rays));
         }
         return TraversalBench{

@@ -24,6 +24,7 @@ struct RendererCosts {
     double compile_seconds = 0;            // pipelines
     std::uint64_t bytes = 0;               // buffers, acceleration structures, film
     std::uint64_t acceleration_bytes = 0;  // of these, the structures
+    std::uint64_t pass_bytes = 0;          // of these, what passes hand on to each other
 };
 
 /// The same rays twice: inside the integrator, and alone.

@@ -128,6 +128,7 @@ struct CpuKernel {
         tracer.vertices.back().field = (value);                                                                        \
     }
 #include "restir.kernel.h"
+#include "trace_path.kernel.h"
 #undef RECORD
 };
 

@@ -45,7 +45,10 @@ public:
         const std::uint64_t film = film_.pixels.size() * sizeof(shared::FilmPixel) +
                                    film_.moments.size() * sizeof(shared::FilmMoments) +
                                    film_.first_hits.size() * sizeof(shared::FilmFirstHit);
-        return {build_seconds_, 0, buffer_bytes(*packed_) + scene_->bytes() + film + reuse_.bytes(), scene_->bytes()};
+        return {.build_seconds = build_seconds_,
+                .bytes = buffer_bytes(*packed_) + scene_->bytes() + film + reuse_.bytes(),
+                .acceleration_bytes = scene_->bytes(),
+                .pass_bytes = reuse_.bytes()};
     }
 
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {

@@ -4,8 +4,10 @@
 
 #include "../../shaders/dispatch.h"
 #include "../../shaders/display.h"
+#include "../../shaders/wave.h"
 #include "catch.h"
 #include "film_pixel.h"
+#include "hit.h"
 #include "path_record.h"
 #include "scene_addresses.h"
 #include "scene_types.h"
@@ -125,7 +127,19 @@ std::map<std::string, Offsets> cpp_offsets() {
         {"Dispatch",
          {FIELD(Dispatch, origin), FIELD(Dispatch, first_sample), FIELD(Dispatch, sample_count),
           FIELD(Dispatch, ray_capacity), FIELD(Dispatch, first_ray), FIELD(Dispatch, first_path),
-          FIELD(Dispatch, vertices_per_path), FIELD(Dispatch, pass)}},
+          FIELD(Dispatch, vertices_per_path), FIELD(Dispatch, region), FIELD(Dispatch, path_capacity),
+          FIELD(Dispatch, wave), FIELD(Dispatch, pass)}},
+        {"WavePath",
+         {FIELD(WavePath, origin), FIELD(WavePath, pdf_direction), FIELD(WavePath, direction),
+          FIELD(WavePath, alpha_key), FIELD(WavePath, throughput), FIELD(WavePath, state), FIELD(WavePath, reference),
+          FIELD(WavePath, rays), FIELD(WavePath, radiance), FIELD(WavePath, padding)}},
+        {"WaveShadow",
+         {FIELD(WaveShadow, origin), FIELD(WaveShadow, t_max), FIELD(WaveShadow, direction),
+          FIELD(WaveShadow, alpha_key), FIELD(WaveShadow, radiance), FIELD(WaveShadow, path)}},
+        {"WaveCounts", {FIELD(WaveCounts, rays), FIELD(WaveCounts, shading), FIELD(WaveCounts, shadows)}},
+        {"Hit",
+         {FIELD(Hit, instance), FIELD(Hit, geometry), FIELD(Hit, primitive), FIELD(Hit, barycentrics), FIELD(Hit, t)}},
+        {"FirstHit", {FIELD(FirstHit, albedo), FIELD(FirstHit, normal), FIELD(FirstHit, depth)}},
         {"RecordedRay",
          {FIELD(RecordedRay, origin), FIELD(RecordedRay, t_max), FIELD(RecordedRay, direction),
           FIELD(RecordedRay, alpha_key)}},
@@ -160,13 +174,19 @@ Offsets address_offsets() {
     offsets["path_vertices"] = offsetof(SceneAddresses, path_vertices);
     offsets["path_summaries"] = offsetof(SceneAddresses, path_summaries);
     offsets["grouped_geometries"] = offsetof(SceneAddresses, grouped_geometries);
+    offsets["wave_paths"] = offsetof(SceneAddresses, wave_paths);
+    offsets["wave_first_hits"] = offsetof(SceneAddresses, wave_first_hits);
+    offsets["wave_queues"] = offsetof(SceneAddresses, wave_queues);
+    offsets["wave_hits"] = offsetof(SceneAddresses, wave_hits);
+    offsets["wave_shadows"] = offsetof(SceneAddresses, wave_shadows);
+    offsets["wave_counts"] = offsetof(SceneAddresses, wave_counts);
     return offsets;
 }
 
 }  // namespace
 
 TEST_CASE("Shared structs lie in memory as the shaders see them") {
-    const Layouts layouts = read_layouts(shader_binary("path.rgen"));
+    const Layouts layouts = read_layouts(shader_binary("wave_shade.comp"));
     for (const auto& [name, offsets] : cpp_offsets()) {
         CAPTURE(name);
         const auto found = layouts.offsets.find(name);
@@ -190,7 +210,7 @@ TEST_CASE("What the display pass is told lies in memory as its shader sees it") 
 }
 
 TEST_CASE("Arrays of shared structs have the stride of their size") {
-    const Layouts layouts = read_layouts(shader_binary("path.rgen"));
+    const Layouts layouts = read_layouts(shader_binary("wave_shade.comp"));
 #define CHECK_STRIDE(Type) CHECK(layouts.strides.at(#Type) == sizeof(shared::Type))
     CHECK_STRIDE(Instance);
     CHECK_STRIDE(Geometry);
@@ -206,6 +226,11 @@ TEST_CASE("Arrays of shared structs have the stride of their size") {
     CHECK_STRIDE(FirstVertex);
     CHECK_STRIDE(Reservoir);
     CHECK_STRIDE(ReuseSurface);
+    CHECK_STRIDE(WavePath);
+    CHECK_STRIDE(WaveShadow);
+    CHECK_STRIDE(WaveCounts);
+    CHECK_STRIDE(Hit);
+    CHECK_STRIDE(FirstHit);
     CHECK_STRIDE(PathQuery);
     CHECK_STRIDE(PathSummary);
     CHECK_STRIDE(PathVertexRecord);

@@ -18,7 +18,7 @@ RenderSettings small_settings() {
 }
 
 Film render_film(const PackedScene& packed, std::uint32_t samples, std::uint64_t slice_budget) {
-    PathRenderer renderer(packed, test_options(), {.ray_generation = {}, .slice_budget = slice_budget});
+    PathRenderer renderer(packed, test_options(), {.slice_budget = slice_budget});
     const std::atomic<bool> cancel = false;
     renderer.render(0, samples, cancel);
     return renderer.film();
@@ -57,7 +57,7 @@ TEST_CASE("A renderer that starts over has the bits of a new one with that seed,
     NEED_VULKAN();
     RenderSettings settings = small_settings();
     PackedScene packed = generated_scene("cornell", settings);
-    PathRenderer renderer(packed, test_options(), {.ray_generation = {}, .slice_budget = 100});
+    PathRenderer renderer(packed, test_options(), {.slice_budget = 100});
     const std::atomic<bool> cancel = false;
     renderer.render(0, 2, cancel);
     renderer.restart(77);

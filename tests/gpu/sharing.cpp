@@ -45,8 +45,8 @@ TEST_CASE("Two renderers and a display on one device, each in its own thread, do
     const std::vector<shared::FilmPixel> restir_alone = alone(restir_scene);
 
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
-    PathRenderer path(gpu, path_scene, {.ray_generation = {}, .slice_budget = 200});
-    PathRenderer restir(gpu, restir_scene, {.ray_generation = {}, .slice_budget = 200});
+    PathRenderer path(gpu, path_scene, {.slice_budget = 200});
+    PathRenderer restir(gpu, restir_scene, {.slice_budget = 200});
     shoot(path);
     shoot(restir);
     std::atomic<int> working = 2;

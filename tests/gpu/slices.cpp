@@ -48,6 +48,9 @@ TEST_CASE("The budget finds a device's speed within a few dispatches, and falls 
         speed.learn(work, static_cast<double>(work) * cost);
     }
     CHECK(static_cast<double>(speed.budget()) * cost == Approx(0.06));
+    const std::uint64_t budget = speed.budget();
+    speed.learn(0, 1);
+    CHECK(speed.budget() == budget);
     speed.learn(1000, 1000 * 1e-6);
     CHECK(static_cast<double>(speed.budget()) * 1e-6 == Approx(0.06).epsilon(1e-3));
 }

@@ -1,0 +1,43 @@
+// PathState as it lies between passes. Included after path.kernel.h.
+#ifndef WAVE_PATHS_GLSL
+#define WAVE_PATHS_GLSL
+
+#include "wave.glsl"
+
+WavePath pack_path(PathState path) {
+    WavePath packed;
+    packed.origin = path.origin;
+    packed.pdf_direction = path.pdf_direction;
+    packed.direction = path.direction;
+    packed.alpha_key = next_ray_key(path);
+    packed.throughput = path.throughput;
+    packed.state = path.depth | (path.only_strategy ? WAVE_ONLY_STRATEGY : 0u);
+    packed.reference = path.reference;
+    packed.rays = path.found.rays;
+    packed.radiance = path.found.radiance;
+    packed.padding = 0u;
+    return packed;
+}
+
+// Of a path that goes on, without a light to be tested.
+PathState unpack_path(WavePath packed, uvec2 pixel, uint sample_index) {
+    PathState path;
+    path.random = make_sampler(pixel, sample_index, constants.seed, constants.sampler_kind, constants.sample_count);
+    path.found.radiance = packed.radiance;
+    path.found.rays = packed.rays;
+    path.found.first_hit = no_first_hit();
+    path.origin = packed.origin;
+    path.direction = packed.direction;
+    path.throughput = packed.throughput;
+    path.reference = packed.reference;
+    path.pdf_direction = packed.pdf_direction;
+    path.only_strategy = (packed.state & WAVE_ONLY_STRATEGY) != 0u;
+    path.goes_on = true;
+    path.depth = packed.state & ~WAVE_ONLY_STRATEGY;
+    path.direct = no_direct_light();
+    path.reservoir = empty_reservoir();
+    path.light_is_complete = false;
+    return path;
+}
+
+#endif

@@ -1,0 +1,60 @@
+// Paths in waves: how many are in flight, and that all come to their end.
+#include "path_waves.h"
+
+#include "backend/cpu_renderer.h"
+#include "gpu_fixture.h"
+#include "path_renderer.h"
+
+namespace diptych::tests {
+namespace {
+
+Film render_film(Renderer& renderer, std::uint32_t samples) {
+    const std::atomic<bool> cancel = false;
+    renderer.render(0, samples, cancel);
+    return renderer.film();
+}
+
+}  // namespace
+
+TEST_CASE("Paths longer than a submission has waves go on in the next, and no longer than there are any") {
+    NEED_VULKAN();
+    RenderSettings settings;
+    settings.width = 24;
+    settings.height = 24;
+    settings.max_depth = 100000;
+    const PackedScene packed = generated_scene("extreme-white-room", settings);
+    PathRenderer on_device(packed, test_options());
+    const std::unique_ptr<Renderer> on_host = make_cpu_renderer(packed, 0);
+    const Film film = render_film(on_device, 32);
+    const FilmTotals device = film_totals(film);
+    const FilmTotals host = film_totals(render_film(*on_host, 32));
+    REQUIRE(host.samples == 24 * 24 * 32);
+    CHECK(device.samples == host.samples);
+    // Cut off after the first submission they would lack more than a thousandth.
+    CHECK(static_cast<double>(device.rays) == Approx(static_cast<double>(host.rays)).epsilon(1e-4));
+    check_no_validation_messages();
+}
+
+TEST_CASE("Paths in flight: one a pixel, within bounds") {
+    NEED_VULKAN();
+    const std::shared_ptr<Gpu> gpu = open_test_gpu();
+    const std::uint32_t fewest = path_capacity(*gpu, 1);
+    const std::uint32_t most = path_capacity(*gpu, std::uint64_t{1} << 40U);
+    CHECK(fewest == 1U << 16U);
+    CHECK(most >= fewest);
+    CHECK(most <= 1U << 21U);
+    CHECK(path_capacity(*gpu, most) == most);
+    CHECK(path_capacity(*gpu, (fewest + most) / 2) == (fewest + most) / 2);
+
+    RenderSettings settings;
+    settings.width = settings.height = 8;
+    const auto bytes_with = [&](Integrator integrator) {
+        settings.integrator = integrator;
+        return PathRenderer(gpu, generated_scene("cornell", settings)).costs().pass_bytes;
+    };
+    // Shadow rays have no room where no light is sampled.
+    CHECK(bytes_with(Integrator::path) - bytes_with(Integrator::brdf) ==
+          std::uint64_t{fewest} * sizeof(shared::WaveShadow));
+}
+
+}  // namespace diptych::tests
