@@ -1,23 +1,9 @@
-// What resampling keeps between its passes (hooks.md).
+// What passes of resampling find beside resampling_memory.glsl: the structure of the moment before (hooks.md).
 #ifndef RESAMPLING_HOOKS_GLSL
 #define RESAMPLING_HOOKS_GLSL
 
+#include "resampling_memory.glsl"
 #include "trace_hooks.glsl"
-
-uint film_pixel_count() { return constants.size.x * constants.size.y; }
-
-FirstVertex load_first_vertex(uint index) { return addresses.first_vertices.data[index]; }
-void store_first_vertex(uint index, FirstVertex vertex) { addresses.first_vertices.data[index] = vertex; }
-Reservoir load_reservoir(uint set, uint index) { return addresses.reservoirs.data[set * film_pixel_count() + index]; }
-void store_reservoir(uint set, uint index, Reservoir r) {
-    addresses.reservoirs.data[set * film_pixel_count() + index] = r;
-}
-ReuseSurface load_reuse_surface(uint set, uint index) {
-    return addresses.reuse_surfaces.data[set * film_pixel_count() + index];
-}
-void store_reuse_surface(uint set, uint index, ReuseSurface s) {
-    addresses.reuse_surfaces.data[set * film_pixel_count() + index] = s;
-}
 
 layout(set = 0, binding = 3) uniform accelerationStructureEXT previous_structure;
 

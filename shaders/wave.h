@@ -15,7 +15,7 @@ struct WavePath {
     vec3 direction;
     uint alpha_key;  // of its next ray
     vec3 throughput;
-    uint state;  // depth, and WAVE_ONLY_STRATEGY
+    uint state;  // depth, and WAVE_ flags
     vec3 reference;
     uint rays;  // so far
     vec3 radiance;
@@ -24,6 +24,8 @@ struct WavePath {
 ASSERT_SIZE(WavePath, 80);
 
 CONST uint WAVE_ONLY_STRATEGY = 0x80000000u;
+CONST uint WAVE_LIGHT_IS_COMPLETE = 0x40000000u;
+CONST uint WAVE_DEPTH = 0x3fffffffu;
 
 /// A shadow ray, and what its path gains where it is free.
 struct WaveShadow {

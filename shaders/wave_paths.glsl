@@ -11,12 +11,22 @@ WavePath pack_path(PathState path) {
     packed.direction = path.direction;
     packed.alpha_key = next_ray_key(path);
     packed.throughput = path.throughput;
-    packed.state = path.depth | (path.only_strategy ? WAVE_ONLY_STRATEGY : 0u);
+    packed.state = path.depth | (path.only_strategy ? WAVE_ONLY_STRATEGY : 0u) |
+                   (path.light_is_complete ? WAVE_LIGHT_IS_COMPLETE : 0u);
     packed.reference = path.reference;
     packed.rays = path.found.rays;
     packed.radiance = path.found.radiance;
     packed.padding = 0u;
     return packed;
+}
+
+void store_path(uint slot, PathState path) {
+    if (path.goes_on) {
+        addresses.wave_paths.data[slot] = pack_path(path);
+    } else {
+        addresses.wave_paths.data[slot].radiance = path.found.radiance;
+        addresses.wave_paths.data[slot].rays = path.found.rays;
+    }
 }
 
 // Of a path that goes on, without a light to be tested.
@@ -33,10 +43,10 @@ PathState unpack_path(WavePath packed, uvec2 pixel, uint sample_index) {
     path.pdf_direction = packed.pdf_direction;
     path.only_strategy = (packed.state & WAVE_ONLY_STRATEGY) != 0u;
     path.goes_on = true;
-    path.depth = packed.state & ~WAVE_ONLY_STRATEGY;
+    path.depth = packed.state & WAVE_DEPTH;
     path.direct = no_direct_light();
     path.reservoir = empty_reservoir();
-    path.light_is_complete = false;
+    path.light_is_complete = (packed.state & WAVE_LIGHT_IS_COMPLETE) != 0u;
     return path;
 }
 

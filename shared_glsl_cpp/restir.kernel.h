@@ -11,10 +11,8 @@
 #ifndef RESTIR_KERNEL_H
 #define RESTIR_KERNEL_H
 
-#include "path.kernel.h"
+#include "resampled_path.kernel.h"
 #include "reuse.kernel.h"
-
-FN uint pixel_index(uvec2 pixel) { return pixel.y * constants.size.x + pixel.x; }
 
 /// Whether a surface's lobe is narrow enough that sampling it finds light points which picking lights seldom does.
 FN bool wants_bsdf_candidate(IN(SurfaceBsdf) bsdf) {
@@ -290,21 +288,6 @@ FN void trace_shadow_of_chosen(uvec2 pixel, IN(ResamplingPass) pass) {
         chosen.weight = 0.0f;
         store_reservoir(pass.reservoirs, index, chosen);
     }
-}
-
-/// The path whose first vertex waits in memory, lit; its next ray, if it goes on, is to be traced.
-FN PathState begin_resampled_path(uvec2 pixel, IN(ResamplingPass) pass) {
-    uint index = pixel_index(pixel);
-    PathState path = begin_path(pixel, pass.frame);
-    FirstVertex vertex = load_first_vertex(index);
-    path.reservoir = load_reservoir(pass.reservoirs, index);
-    extend_path(path, vertex.hit);
-    path.found.rays += vertex.rays;
-    if (vertex.occluded == 0u) {
-        path.found.radiance += path.direct.radiance;
-    }
-    path.direct.radiance = vec3(0.0f, 0.0f, 0.0f);
-    return path;
 }
 
 /// The sample of this frame.

@@ -96,10 +96,15 @@ void PathRenderer::count_bytes() {
         scene_bytes(scene_) + costs_.acceleration_bytes + films_.size() * film_bytes(*film_) + costs_.pass_bytes;
 }
 
+// Resampled light of the first vertex alone needs none.
+bool PathRenderer::goes_in_waves() const {
+    return !resamples() || (features_ & shared::FEATURE_LATER_VERTICES) != 0;
+}
+
 void PathRenderer::replace_waves() {
     const std::uint64_t pixels = std::uint64_t{constants_.size.x} * constants_.size.y;
-    const std::uint32_t capacity = resamples() ? 0 : path_capacity(*gpu_, pixels);
-    const std::uint32_t features = resamples() ? 0 : features_;
+    const std::uint32_t capacity = goes_in_waves() ? path_capacity(*gpu_, pixels) : 0;
+    const std::uint32_t features = goes_in_waves() ? features_ : 0;
     if (!fits(waves_, capacity, features)) {
         waves_ = WaveMemory();
         waves_ = capacity > 0 ? make_wave_memory(*gpu_, capacity, features) : WaveMemory();
@@ -176,21 +181,21 @@ const vk::raii::Pipeline& PathRenderer::compute_pipeline(Spirv shader) {
 }
 
 void PathRenderer::choose_pipelines() {
-    wave_pipelines_ = {};
     stages_.fill(nullptr);
-    if (!resamples()) {
-        const bool samples_lights = (features_ & shared::FEATURE_LIGHT_SAMPLING) != 0;
-        wave_pipelines_ = {.begin = &compute_pipeline(shader_binary("wave_begin.comp")),
-                           .rays = &pipeline(shader_binary("wave_rays.rgen")),
-                           .shade = &compute_pipeline(shader_binary("wave_shade.comp")),
-                           .shadows = samples_lights ? &pipeline(shader_binary("wave_shadows.rgen")) : nullptr,
-                           .film = &compute_pipeline(shader_binary("wave_film.comp"))};
-    }
     for (std::size_t i = 0; resamples() && i < resampling_stages; ++i) {
         const auto stage = static_cast<ResamplingStage>(i);
-        if (needs_stage(stage, constants_)) {
+        if (stage != ResamplingStage::shade && needs_stage(stage, constants_)) {
             stages_[i] = &pipeline(resampling_shader(stage));
         }
+    }
+    const Spirv begin = resamples() ? resampling_shader(ResamplingStage::shade) : shader_binary("wave_begin.comp");
+    wave_pipelines_ = {.begin = &compute_pipeline(begin), .begin_appends = resamples()};
+    if (goes_in_waves()) {
+        const bool samples_lights = (features_ & shared::FEATURE_LIGHT_SAMPLING) != 0;
+        wave_pipelines_.rays = &pipeline(shader_binary("wave_rays.rgen"));
+        wave_pipelines_.shade = &compute_pipeline(shader_binary("wave_shade.comp"));
+        wave_pipelines_.shadows = samples_lights ? &pipeline(shader_binary("wave_shadows.rgen")) : nullptr;
+        wave_pipelines_.film = &compute_pipeline(shader_binary("wave_film.comp"));
     }
 }
 
@@ -290,22 +295,24 @@ Slice PathRenderer::next_slice(SliceCursor& cursor, const SpeedEstimate& speed) 
                        gpu_->ray_tracing.maxRayDispatchInvocationCount);
 }
 
-// As many waves as the deepest path may take: rays that end at its last vertex find light there, and ask for none. Of
-// very many waves, those that come after all paths have ended are left out.
+// As many waves as the deepest path may take: rays that end at its last vertex find light there, and ask for none. A
+// resampled path has its first vertex behind it. Of very many waves, those that come after all paths have ended are
+// left out.
 void PathRenderer::submit_slice(TimedQueue& queue, const WavePipelines& pipelines, const Bindings& bindings,
-                                const Slice& slice, std::uint32_t ray_capacity) const {
-    SliceWaves waves(pipelines, layout_, bindings, waves_, slice, ray_capacity);
-    std::uint64_t steps = std::uint64_t{constants_.max_depth} + 1;
+                                const Slice& slice, const shared::Dispatch& request, std::size_t label) const {
+    SliceWaves waves(pipelines, layout_, bindings, waves_, slice, request);
+    std::uint64_t steps = goes_in_waves() ? std::uint64_t{constants_.max_depth} + (resamples() ? 0 : 1) : 0;
     const auto submit = [&](std::uint64_t work, auto&& start) {
-        queue.submit(work, [&](const vk::raii::CommandBuffer& commands) {
-            start(commands);
-            for (std::uint32_t i = 0; i < SliceWaves::most_steps && steps > 0; ++i, --steps) {
-                waves.step(commands);
-            }
-            if (steps == 0) {
-                waves.finish(commands);
-            }
-        });
+        const TimedPart part{label, [&](const vk::raii::CommandBuffer& commands) {
+                                 start(commands);
+                                 for (std::uint32_t i = 0; i < SliceWaves::most_steps && steps > 0; ++i, --steps) {
+                                     waves.step(commands);
+                                 }
+                                 if (steps == 0) {
+                                     waves.finish(commands);
+                                 }
+                             }};
+        queue.submit(work, std::span(&part, 1));
     };
     submit(slice.work(), [&](const auto& commands) { waves.begin(commands); });
     while (steps > 0) {

@@ -82,13 +82,17 @@ private:
     SceneAddresses addresses(const FilmMemory& film) const;
     void render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
     void render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
+    std::uint64_t pixel_limit(ResamplingStage stage) const;
+    void record_stage(const vk::raii::CommandBuffer& commands, ResamplingStage stage, const Slice& slice,
+                      shared::Dispatch dispatch) const;
     void show_reservoirs(const ResamplingStep& step);
     std::uint64_t slice_budget() const;
     bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
+    bool goes_in_waves() const;
     void warm_up() const;
     Slice next_slice(SliceCursor& cursor, const SpeedEstimate& speed) const;
     void submit_slice(TimedQueue& queue, const WavePipelines& pipelines, const Bindings& bindings, const Slice& slice,
-                      std::uint32_t ray_capacity = 0) const;
+                      const shared::Dispatch& request = {}, std::size_t label = 0) const;
     std::vector<shared::PathSummary> summarize(std::span<const shared::PathQuery> queries,
                                                const shared::RenderConstants& constants);
     void trace_listed(std::span<const shared::PathQuery> queries, const shared::RenderConstants& constants,
@@ -109,7 +113,8 @@ private:
     PipelineLayout layout_;
     std::map<std::tuple<const std::uint32_t*, std::uint32_t, bool>, TracePipeline>
         pipelines_;  // by ray generation shader, features, groups
-    std::map<std::tuple<const std::uint32_t*, std::uint32_t>, vk::raii::Pipeline> compute_pipelines_;  // by shader, features
+    std::map<std::tuple<const std::uint32_t*, std::uint32_t>, vk::raii::Pipeline>
+        compute_pipelines_;  // by shader, features
     WavePipelines wave_pipelines_;
     WaveMemory waves_;
     std::shared_ptr<ResamplingMemory> resampling_;

@@ -18,7 +18,7 @@ using Usage = vk::BufferUsageFlagBits;
 
 constexpr std::uint64_t most_paths = std::uint64_t{1} << 21U;  // what a wave costs beside its paths is small then
 constexpr std::uint64_t fewest_paths = std::uint64_t{1} << 16U;
-static_assert(most_paths / shared::WAVE_GROUP <= 65535);  // maxComputeWorkGroupCount of any device
+static_assert(most_paths <= most_invocations);
 constexpr std::uint64_t part_of_memory = 16;
 constexpr std::uint64_t bytes_of_path = sizeof(shared::WavePath) + sizeof(shared::FirstHit) +
                                         2 * sizeof(std::uint32_t) + sizeof(shared::Hit) + sizeof(shared::WaveShadow);
@@ -90,21 +90,24 @@ void enter_waves(SceneAddresses& addresses, const WaveMemory& memory) {
 }
 
 SliceWaves::SliceWaves(const WavePipelines& pipelines, const PipelineLayout& layout, const Bindings& bindings,
-                       const WaveMemory& memory, const Slice& slice, std::uint32_t ray_capacity)
-    : pipelines_(pipelines), layout_(layout), bindings_(bindings), memory_(memory) {
+                       const WaveMemory& memory, const Slice& slice, const shared::Dispatch& request)
+    : pipelines_(pipelines), layout_(layout), bindings_(bindings), memory_(memory), dispatch_(request) {
     dispatch_.origin = {slice.region.x, slice.region.y};
     dispatch_.region = {slice.region.width, slice.region.height};
     dispatch_.first_sample = slice.first_sample;
     dispatch_.sample_count = slice.sample_count;
     dispatch_.path_capacity = memory.capacity;
-    dispatch_.ray_capacity = ray_capacity;
 }
 
 void SliceWaves::begin(const vk::raii::CommandBuffer& commands) {
     const std::uint64_t paths = pixels_of(dispatch_) * dispatch_.sample_count;
-    count_from(commands, {.rays = {static_cast<std::uint32_t>(paths), 1, 1},
-                          .shading = {groups_for(paths), 1, 1},
-                          .shadows = {0, 1, 1}});
+    if (pipelines_.rays != nullptr) {
+        const std::uint64_t listed = pipelines_.begin_appends ? 0 : paths;
+        count_from(commands, {.rays = {static_cast<std::uint32_t>(listed), 1, 1},
+                              .shading = {groups_for(listed), 1, 1},
+                              .shadows = {0, 1, 1}});
+        full_barrier(commands);
+    }
     compute(commands, *pipelines_.begin);
     commands.dispatch(groups_for(paths), 1, 1);
 }
@@ -122,6 +125,9 @@ void SliceWaves::step(const vk::raii::CommandBuffer& commands) {
 }
 
 void SliceWaves::finish(const vk::raii::CommandBuffer& commands) {
+    if (pipelines_.film == nullptr) {
+        return;
+    }
     full_barrier(commands);
     compute(commands, *pipelines_.film);
     commands.dispatch(groups_for(pixels_of(dispatch_)), 1, 1);

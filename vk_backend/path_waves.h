@@ -10,6 +10,9 @@
 
 namespace diptych {
 
+/// Invocations of a compute shader in groups of WAVE_GROUP that any device takes at a time.
+constexpr std::uint64_t most_invocations = std::uint64_t{65535} * shared::WAVE_GROUP;
+
 /// Paths in flight at a time, for a film of so many pixels: one of each, within bounds and a part of the device's
 /// memory. A film of few pixels has several samples of each in flight, one of very many goes in parts.
 std::uint32_t path_capacity(const Gpu& gpu, std::uint64_t pixels);
@@ -36,10 +39,11 @@ void enter_waves(SceneAddresses& addresses, const WaveMemory& memory);
 /// Pipelines of the passes, none of them owned.
 struct WavePipelines {
     const vk::raii::Pipeline* begin = nullptr;
-    const TracePipeline* rays = nullptr;
+    bool begin_appends = false;           // those that go on; else all do
+    const TracePipeline* rays = nullptr;  // this and what follows: null where no path goes on
     const vk::raii::Pipeline* shade = nullptr;
-    const TracePipeline* shadows = nullptr;  // null where no light is sampled
-    const vk::raii::Pipeline* film = nullptr;
+    const TracePipeline* shadows = nullptr;    // null where no light is sampled
+    const vk::raii::Pipeline* film = nullptr;  // which begins add to themselves otherwise
 };
 
 /// The waves of one slice, which has to have room in the memory, in one submission or, of deep paths, several.
@@ -47,9 +51,10 @@ class SliceWaves {
 public:
     static constexpr std::uint32_t most_steps = 128;  // of a submission
 
-    /// Rays are recorded into so much room, where the pipelines record them.
+    /// `request` holds what the passes are told beside the slice: room for rays that are recorded, a pass of
+    /// resampling.
     SliceWaves(const WavePipelines& pipelines, const PipelineLayout& layout, const Bindings& bindings,
-               const WaveMemory& memory, const Slice& slice, std::uint32_t ray_capacity = 0);
+               const WaveMemory& memory, const Slice& slice, const shared::Dispatch& request = {});
 
     /// Records: all paths begin. First of a submission.
     void begin(const vk::raii::CommandBuffer& commands);
@@ -74,7 +79,7 @@ private:
     const PipelineLayout& layout_;
     const Bindings& bindings_;
     const WaveMemory& memory_;
-    shared::Dispatch dispatch_{};
+    shared::Dispatch dispatch_;
 };
 
 }  // namespace diptych

@@ -6,7 +6,7 @@
 namespace diptych {
 
 // Passes of a fast device go together in one submission, up to the budget; a pass of a slow one is cut into several. A
-// frame that has begun is finished, or its reservoirs would be of two frames.
+// frame that has begun is finished, or its reservoirs would be of two frames. Waves are submitted by themselves.
 void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
     std::vector<TimedPart> parts;
     std::uint64_t work = 0;
@@ -22,17 +22,20 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
             reservoir_set_ = resulting_set(step);
             SliceCursor cursor({0, 0, constants_.size.x, constants_.size.y}, frame, 1);
             while (!cursor.done()) {
-                const Slice slice = cursor.next(slice_budget(), gpu_->ray_tracing.maxRayDispatchInvocationCount);
+                shared::Dispatch dispatch{};
+                dispatch.pass = step.pass;
+                if (step.stage == ResamplingStage::shade && goes_in_waves()) {
+                    flush();
+                    submit_slice(*queue_, wave_pipelines_, bindings_, next_slice(cursor, speed_), dispatch, step.place);
+                    continue;
+                }
+                const Slice slice = cursor.next(slice_budget(), pixel_limit(step.stage));
                 if (work + slice.work() > slice_budget() || parts.size() == TimedQueue::most_parts) {
                     flush();
                 }
-                shared::Dispatch dispatch{};
-                dispatch.origin = {slice.region.x, slice.region.y};
-                dispatch.pass = step.pass;
                 parts.push_back({step.place, [this, dispatch, slice, stage = step.stage](const auto& commands) {
                                      full_barrier(commands);
-                                     record_dispatch(commands, *stages_[static_cast<std::size_t>(stage)], layout_,
-                                                     bindings_, dispatch, slice.region.width, slice.region.height);
+                                     record_stage(commands, stage, slice, dispatch);
                                  }});
                 work += slice.work();
             }
@@ -44,6 +47,21 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
         }
     }
     flush();
+}
+
+std::uint64_t PathRenderer::pixel_limit(ResamplingStage stage) const {
+    return stage == ResamplingStage::shade ? most_invocations : gpu_->ray_tracing.maxRayDispatchInvocationCount;
+}
+
+void PathRenderer::record_stage(const vk::raii::CommandBuffer& commands, ResamplingStage stage, const Slice& slice,
+                                shared::Dispatch dispatch) const {
+    if (stage == ResamplingStage::shade) {
+        SliceWaves(wave_pipelines_, layout_, bindings_, waves_, slice, dispatch).begin(commands);
+        return;
+    }
+    dispatch.origin = {slice.region.x, slice.region.y};
+    record_dispatch(commands, *stages_[static_cast<std::size_t>(stage)], layout_, bindings_, dispatch,
+                    slice.region.width, slice.region.height);
 }
 
 void PathRenderer::show_reservoirs(const ResamplingStep& step) {

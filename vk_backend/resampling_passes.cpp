@@ -68,7 +68,7 @@ Spirv resampling_shader(ResamplingStage stage) {
     case ResamplingStage::shade:
         break;
     }
-    return shader_binary("restir_shade.rgen");
+    return shader_binary("restir_shade.comp");
 }
 
 }  // namespace diptych

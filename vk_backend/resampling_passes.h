@@ -29,7 +29,7 @@ void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory)
 
 std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory);
 
-/// The ray generation shader of a stage.
+/// The ray generation shader of a stage; of shade, the compute shader with which its waves begin.
 Spirv resampling_shader(ResamplingStage stage);
 
 }  // namespace diptych

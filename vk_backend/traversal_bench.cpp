@@ -101,8 +101,10 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
                                    std::uint32_t ray_capacity) {
             TimedQueue queue(*gpu_, [&](std::uint64_t work, double seconds) { speed.learn(work, seconds); });
             SliceCursor cursor(block.region, 0, block.samples);
+            shared::Dispatch request{};
+            request.ray_capacity = ray_capacity;
             while (!cursor.done()) {
-                submit_slice(queue, pipelines, bindings, next_slice(cursor, speed), ray_capacity);
+                submit_slice(queue, pipelines, bindings, next_slice(cursor, speed), request);
             }
             queue.drain();
             return queue.seconds();

@@ -22,6 +22,7 @@ TEST_CASE("Paths longer than a submission has waves go on in the next, and no lo
     settings.width = 24;
     settings.height = 24;
     settings.max_depth = 100000;
+    settings.integrator = GENERATE(Integrator::path, Integrator::ris);
     const PackedScene packed = generated_scene("extreme-white-room", settings);
     PathRenderer on_device(packed, test_options());
     const std::unique_ptr<Renderer> on_host = make_cpu_renderer(packed, 0);
@@ -48,13 +49,15 @@ TEST_CASE("Paths in flight: one a pixel, within bounds") {
 
     RenderSettings settings;
     settings.width = settings.height = 8;
-    const auto bytes_with = [&](Integrator integrator) {
+    const auto bytes_with = [&](Integrator integrator, std::uint32_t depth) {
         settings.integrator = integrator;
+        settings.max_depth = depth;
         return PathRenderer(gpu, generated_scene("cornell", settings)).costs().pass_bytes;
     };
-    // Shadow rays have no room where no light is sampled.
-    CHECK(bytes_with(Integrator::path) - bytes_with(Integrator::brdf) ==
-          std::uint64_t{fewest} * sizeof(shared::WaveShadow));
+    // Shadow rays have no room where no light is sampled, and resampled direct light has no path to follow.
+    const std::uint64_t of_path = bytes_with(Integrator::path, 3);
+    CHECK(of_path - bytes_with(Integrator::brdf, 3) == std::uint64_t{fewest} * sizeof(shared::WaveShadow));
+    CHECK(bytes_with(Integrator::ris, 3) - bytes_with(Integrator::ris, 1) == of_path);
 }
 
 }  // namespace diptych::tests
