@@ -23,7 +23,7 @@ struct WavePath {
 };
 ASSERT_SIZE(WavePath, 80);
 
-CONST uint WAVE_ONLY_STRATEGY = 0x80000000u;
+CONST uint WAVE_ONLY_STRATEGY = 0x80000000u;      // PathState's flags
 CONST uint WAVE_LIGHT_IS_COMPLETE = 0x40000000u;
 CONST uint WAVE_DEPTH = 0x3fffffffu;
 
