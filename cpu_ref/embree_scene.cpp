@@ -241,10 +241,11 @@ void EmbreeScene::reconfigure(const PackedScene& packed) {
     check("reconfigure");
 }
 
-EmbreeHit EmbreeScene::closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
+EmbreeHit EmbreeScene::closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key,
+                               float t_max) const {
     RayContext context = make_context(alpha_key);
     RTCRayHit query;
-    set_ray(query.ray, origin, direction, std::numeric_limits<float>::infinity());
+    set_ray(query.ray, origin, direction, t_max);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if DIPTYCH_EMBREE_VERSION >= 4

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -38,7 +39,8 @@ public:
     explicit EmbreeScene(const PackedScene& packed);
 
     /// Nearest hit with t in (0, infinity).
-    EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const;
+    EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key,
+                      float t_max = std::numeric_limits<float>::infinity()) const;
 
     /// Whether anything lies in (0, t_max).
     bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const;

@@ -16,6 +16,10 @@ bool trace_any_previous(vec3 origin, vec3 direction, float t_max, uint alpha_key
     return shadow_payload.missed == 0u;
 }
 
+Hit trace_within(vec3 origin, vec3 direction, float t_max, uint alpha_key) {
+    return trace_either(origin, direction, t_max, false, alpha_key);
+}
+
 uvec2 launch_pixel() { return dispatch_block.value.origin + gl_LaunchIDEXT.xy; }
 
 #endif

@@ -51,6 +51,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer film_first_h
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer first_vertices_buffer { FirstVertex data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer reservoirs_buffer { Reservoir data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer reuse_surfaces_buffer { ReuseSurface data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer candidate_list_buffer {
+    uvec3 command;   // indirect, of which x counts
+    uint entries[];  // a pixel's index, and in the low two bits what it needs
+};
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer recorded_rays_buffer { RecordedRay data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ray_counters_buffer { RayCounters data; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer path_queries_buffer { PathQuery data[]; };
@@ -76,6 +80,7 @@ layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
     first_vertices_buffer first_vertices;
     reservoirs_buffer reservoirs;
     reuse_surfaces_buffer reuse_surfaces;
+    candidate_list_buffer candidate_list;
     recorded_rays_buffer recorded_rays;
     ray_counters_buffer ray_counters;
     path_queries_buffer path_queries;

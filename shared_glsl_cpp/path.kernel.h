@@ -7,6 +7,9 @@
 #include "alpha.kernel.h"
 #include "light_point.kernel.h"
 
+/// The place of a pixel in whatever holds a film's.
+FN uint pixel_index(uvec2 pixel) { return pixel.y * constants.size.x + pixel.x; }
+
 /// One sample of one pixel.
 struct PathSample {
     vec3 radiance;

@@ -4,8 +4,6 @@
 
 #include "path.kernel.h"
 
-FN uint pixel_index(uvec2 pixel) { return pixel.y * constants.size.x + pixel.x; }
-
 /// The path whose first vertex waits in memory, lit; its next ray, if it goes on, is to be traced.
 FN PathState begin_resampled_path(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);

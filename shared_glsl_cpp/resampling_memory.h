@@ -8,6 +8,11 @@
 
 SHARED_BEGIN
 
+CONST float BSDF_CANDIDATE_NEARBY = 0.125f;  // probability of looking for lamps close by
+CONST float BSDF_SHARE_LEAST = 0.125f;       // that a picked light point gives up where it is looked at and seen
+CONST uint CANDIDATE_SAMPLES_BSDF = 1u;      // what initial resampling still needs of a pixel once lights were picked
+CONST uint CANDIDATE_TESTS_PICKED = 2u;
+
 /// A first vertex that waits to be shaded.
 struct FirstVertex {
     Hit hit;

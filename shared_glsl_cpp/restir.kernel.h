@@ -11,35 +11,9 @@
 #ifndef RESTIR_KERNEL_H
 #define RESTIR_KERNEL_H
 
+#include "candidates.kernel.h"
 #include "resampled_path.kernel.h"
 #include "reuse.kernel.h"
-
-/// Whether a surface's lobe is narrow enough that sampling it finds light points which picking lights seldom does.
-FN bool wants_bsdf_candidate(IN(SurfaceBsdf) bsdf) {
-    return constants.resampling.bsdf_candidates != 0u && bsdf.parameters.alpha < 0.1f &&
-           max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f;
-}
-
-/// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it by the square of
-/// the ratio: a point that others chose by the wide lobe would be a firefly now and then, where sampling the material finds none.
-FN bool wants_reuse(IN(SurfaceBsdf) bsdf) { return bsdf.parameters.alpha >= TARGET_ALPHA_MIN; }
-
-/// Light points picked by power, one kept in proportion to the target.
-FN Resampling resample_lights(IN(TargetSurface) surface, IN(Sampler) random) {
-    Resampling chosen = begin_resampling();
-    uint count = constants.resampling.light_candidates;
-    for (uint i = 0u; i < count; i++) {
-        uvec4 words = independent_words(random, DIMENSION_CANDIDATE + i);
-        uvec4 pick = independent_words(random, DIMENSION_CANDIDATE_PICK + i);
-        LightPointSample candidate = sample_light_point(words, uvec2(pick.y, pick.z));
-        if (!(candidate.pdf > 0.0f)) {
-            continue;
-        }
-        float target = unoccluded_target(surface, see_light_point(candidate.point, surface.position, MOMENT_CURRENT));
-        add_candidate(chosen, candidate.point, target, target / (float(count) * candidate.pdf), unit_float(pick.x));
-    }
-    return chosen;
-}
 
 /// The light point, if any, that a ray found; `direction` is the ray's.
 FN LightPoint light_point_of_hit(IN(Hit) hit, vec3 direction) {
@@ -60,46 +34,59 @@ FN LightPoint light_point_of_hit(IN(Hit) hit, vec3 direction) {
     return y;
 }
 
-/// Adds what sampling the material finds to what picking lights found. The material's sampling finds only what is visible, so the
-/// balance heuristic between the two has to know whether the picked point is; without that every point in shadow would lose a part of
-/// its weight, and neighbours that see it would be too dark.
-FN Resampling add_bsdf_candidate(IN(Resampling) lights, IN(TargetSurface) surface, IN(SurfaceBsdf) bsdf, IN(SeenBsdf) seen,
-                                 vec3 origin, IN(Sampler) random, INOUT(uint) rays) {
-    Resampling chosen = begin_resampling();
-    float count = float(constants.resampling.light_candidates);
-    if (lights.target > 0.0f) {
-        SeenLight light = see_light_point(lights.point, surface.position, MOMENT_CURRENT);
-        float pdf_bsdf = 0.0f;
-        if (light.by_chance) {
-            BsdfValue f = surface_bsdf_eval_pdf(bsdf, seen, light.direction, features());
-            pdf_bsdf = f.pdf * light.measure;
-        }
-        if (pdf_bsdf > 0.0f) {
-            rays += 1u;
-            bool unseen = MUTANT(BSDF_CANDIDATE_BLIND, is_light_occluded(surface, light, lights.point, MOMENT_CURRENT), false);
-            pdf_bsdf = unseen ? 0.0f : pdf_bsdf;
-        }
-        float pdf_lights = count * pdf_light_point(lights.point);
-        float share = pdf_lights / (pdf_lights + pdf_bsdf);
-        add_candidate(chosen, lights.point, lights.target, share * lights.weight_sum, 0.0f);
-    }
-    uvec4 words = independent_words(random, DIMENSION_BSDF_CANDIDATE);
-    uvec4 pick = independent_words(random, DIMENSION_BSDF_CANDIDATE + 1u);
-    BsdfSample next = surface_bsdf_sample(bsdf, seen, vec2(unit_float(words.x), unit_float(words.y)),
+/// What sampling the material finds, if anything, with the density of finding it so.
+FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, INOUT(uint) rays) {
+    LightPointSample found;
+    found.point = no_light_point();
+    found.pdf = 0.0f;
+    uvec4 words = independent_words(first.random, DIMENSION_BSDF_CANDIDATE);
+    BsdfSample next = surface_bsdf_sample(first.bsdf, first.wo, vec2(unit_float(words.x), unit_float(words.y)),
                                           vec2(unit_float(words.z), unit_float(words.w)), features());
-    if (next.pdf > 0.0f && next.delta == 0u) {
-        rays += 1u;
-        Hit hit = trace_closest(origin, next.direction, ray_alpha_key(random, 0x40000000u));
-        LightPoint y = light_point_of_hit(hit, next.direction);
-        if (y.light < constants.light_count) {
-            SeenLight light = see_light_point(y, surface.position, MOMENT_CURRENT);
-            float target = light.by_chance ? unoccluded_target(surface, light) : 0.0f;
-            float pdf_bsdf = next.pdf * light.measure;
-            float total = pdf_bsdf + count * pdf_light_point(y);
-            add_candidate(chosen, y, target, target / total, unit_float(pick.x));
+    if (!(next.pdf > 0.0f) || next.delta != 0u) {
+        return found;
+    }
+    rays += 1u;
+    BsdfCandidate c = bsdf_candidate(first.bsdf);
+    Hit hit = trace_within(first.origin, next.direction, c.reach, ray_alpha_key(first.random, 0x40000000u));
+    LightPoint y = light_point_of_hit(hit, next.direction);
+    if (y.light < constants.light_count) {
+        SeenLight light = see_light_point(y, first.origin, MOMENT_CURRENT);
+        found.point = y;
+        found.pdf = is_within(c, first.origin, light) ? c.probability * next.pdf * light.measure : 0.0f;
+    }
+    return found;
+}
+
+/// Adds what sampling the material finds to what picking lights found.
+FN void add_bsdf_candidate(uvec2 pixel, uint needs, IN(ResamplingPass) pass) {
+    uint index = pixel_index(pixel);
+    FirstVertex vertex = load_first_vertex(index);
+    FirstSurface first = load_first_surface(pixel, pass, vertex.hit);
+    TargetSurface surface = unpack_reuse_surface(first.packed);
+    Reservoir picked = load_reservoir(pass.reservoirs, index);
+    Resampling chosen = begin_resampling();
+    if (picked.weight > 0.0f) {
+        SeenLight light = see_light_point(picked.point, first.origin, MOMENT_CURRENT);
+        float kept = 1.0f;
+        if ((needs & CANDIDATE_TESTS_PICKED) != 0u) {
+            vertex.rays += 1u;
+            bool seen = MUTANT(BSDF_CANDIDATE_BLIND, !is_light_occluded(first.origin, light, picked.point, MOMENT_CURRENT), true);
+            kept -= seen ? max(bsdf_share(first, picked.point, light), BSDF_SHARE_LEAST) : 0.0f;
+        }
+        float target = unoccluded_target(surface, light);
+        add_candidate(chosen, picked.point, target, kept * target * picked.weight, 0.0f);
+    }
+    if ((needs & CANDIDATE_SAMPLES_BSDF) != 0u) {
+        LightPointSample found = find_light_by_bsdf(first, vertex.rays);
+        if (found.pdf > 0.0f) {
+            float target = unoccluded_target(surface, see_light_point(found.point, first.origin, MOMENT_CURRENT));
+            float pdf_picked = float(constants.resampling.light_candidates) * pdf_light_point(found.point);
+            uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
+            add_candidate(chosen, found.point, target, target / (found.pdf + pdf_picked), unit_float(pick.x));
         }
     }
-    return chosen;
+    store_first_vertex(index, vertex);
+    store_reservoir(pass.reservoirs, index, initial_reservoir(chosen));
 }
 
 /// The camera's ray.
@@ -113,48 +100,21 @@ FN void find_first_vertex(uvec2 pixel, IN(ResamplingPass) pass) {
     store_first_vertex(pixel_index(pixel), vertex);
 }
 
-/// The first vertex's initial reservoir, of confidence 1 whatever it holds.
-FN void resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
+/// An initial reservoir keeps only what is seen.
+FN void test_candidate(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
-    PathState path = begin_path(pixel, pass.frame);
-    FirstVertex vertex = load_first_vertex(index);
-    Reservoir reservoir = empty_reservoir();
-    ReuseSurface kept = no_reuse_surface();
-    if (vertex.hit.instance != NONE && constants.max_depth > 0u) {
-        vec3 wo = -path.direction;
-        LOCAL(Instance) instance = load_instances(vertex.hit.instance);
-        Surface surface = load_surface(vertex.hit, instance, path.origin, path.direction);
-        LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
-        SurfaceBsdf bsdf = load_bsdf(surface, instance, material, wo);
-        if ((material.flags & MATERIAL_UNLIT) == 0u && !bsdf_is_purely_delta(bsdf.parameters, features())) {
-            vertex.origin = offset_ray(surface.start, bsdf.geometric_normal, surface.magnitude);
-            ReuseSurface described = pack_reuse_surface(vertex.origin, bsdf, wo);
-            TargetSurface target = unpack_reuse_surface(described);
-            if (wants_reuse(bsdf)) {
-                kept = described;
-            }
-            Resampling chosen = resample_lights(target, path.random);
-            if (wants_bsdf_candidate(bsdf)) {
-                SeenBsdf seen = see_bsdf(bsdf, wo, features());
-                chosen = add_bsdf_candidate(chosen, target, bsdf, seen, vertex.origin, path.random, vertex.rays);
-            }
-            reservoir = end_resampling(chosen, 1.0f, MUTANT(CONFIDENCE_BY_SAMPLE, 1.0f, clamp(chosen.target, 0.1f, 10.0f)));
-            bool tests_visibility = MUTANT(INITIAL_CULL, false, true) || constants.resampling.visibility == VISIBILITY_IN_TARGET ||
-                                    constants.resampling.visibility == VISIBILITY_BIASED_INITIAL;
-            if (tests_visibility && reservoir.weight > 0.0f) {
-                SeenLight light = see_light_point(reservoir.point, target.position, MOMENT_CURRENT);
-                vertex.rays += 1u;
-                if (is_light_occluded(target, light, reservoir.point, MOMENT_CURRENT)) {
-                    reservoir = empty_reservoir();
-                    reservoir.confidence = MUTANT(CULL_TAKES_CONFIDENCE, 1.0f, 0.0f);
-                }
-            }
-        }
+    Reservoir reservoir = load_reservoir(pass.reservoirs, index);
+    if (!(reservoir.weight > 0.0f)) {
+        return;
     }
+    FirstVertex vertex = load_first_vertex(index);
+    SeenLight light = see_light_point(reservoir.point, vertex.origin, MOMENT_CURRENT);
+    vertex.rays += 1u;
     store_first_vertex(index, vertex);
-    store_reservoir(pass.reservoirs, index, reservoir);
-    if (constants.integrator == INTEGRATOR_RESTIR) {
-        store_reuse_surface(pass.surfaces, index, kept);
+    if (is_light_occluded(vertex.origin, light, reservoir.point, MOMENT_CURRENT)) {
+        reservoir = empty_reservoir();
+        reservoir.confidence = MUTANT(CULL_TAKES_CONFIDENCE, 1.0f, 0.0f);
+        store_reservoir(pass.reservoirs, index, reservoir);
     }
 }
 

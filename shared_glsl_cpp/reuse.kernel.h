@@ -6,7 +6,7 @@
 #ifndef REUSE_KERNEL_H
 #define REUSE_KERNEL_H
 
-#include "light_point.kernel.h"
+#include "candidates.kernel.h"
 
 /// Reservoirs to merge: pixels of one set, with the surfaces and the lights they were made for.
 struct Neighborhood {
@@ -18,7 +18,9 @@ struct Neighborhood {
     float confidence_cap;
 };
 
-FN bool target_has_visibility() { return constants.resampling.visibility == VISIBILITY_IN_TARGET; }
+FN bool target_has_visibility() {
+    return feature(FEATURE_TARGET_VISIBILITY) && constants.resampling.visibility == VISIBILITY_IN_TARGET;
+}
 
 /// Names the shadow rays to a light point: whether they pass stochastic alpha is a property of the point, the same for every surface.
 FN uint visibility_key(IN(LightPoint) y) {
@@ -28,18 +30,13 @@ FN uint visibility_key(IN(LightPoint) y) {
     return pcg4d(uvec4(y.light, floatBitsToUint(y.uv.x), floatBitsToUint(y.uv.y), constants.seed)).x >> 1;
 }
 
-FN bool is_light_occluded(IN(TargetSurface) s, IN(SeenLight) light, IN(LightPoint) y, uint moment) {
-    vec3 direction = light.distant ? light.direction : light.end - s.position;
+FN bool is_light_occluded(vec3 origin, IN(SeenLight) light, IN(LightPoint) y, uint moment) {
+    vec3 direction = light.distant ? light.direction : light.end - origin;
     float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
     if (feature(FEATURE_MOTION) && moment == MUTANT(REUSE_CURRENT_OCCLUDERS, MOMENT_PREVIOUS, NONE)) {
-        return trace_any_previous(s.position, direction, t_max, visibility_key(y));
+        return trace_any_previous(origin, direction, t_max, visibility_key(y));
     }
-    return trace_any(s.position, direction, t_max, visibility_key(y));
-}
-
-/// The target without visibility, per uv.
-FN float unoccluded_target(IN(TargetSurface) s, IN(SeenLight) light) {
-    return light.measure * luminance(target_reflectance(s, light.direction) * light.radiance);
+    return trace_any(origin, direction, t_max, visibility_key(y));
 }
 
 /// The target p̂ at a surface, per uv: as the lights and occluders of `moment` have it. Counts the rays it needs.
@@ -51,7 +48,7 @@ FN float target_at(IN(TargetSurface) s, IN(LightPoint) y, uint moment, INOUT(uin
     }
     if (target_has_visibility()) {
         rays += 1u;
-        return is_light_occluded(s, light, y, moment) ? 0.0f : target;
+        return is_light_occluded(s.position, light, y, moment) ? 0.0f : target;
     }
     return target;
 }

@@ -15,7 +15,7 @@ SHARED_BEGIN
 
 CONST float TARGET_COS_MIN = 1.0e-3f;        // floor of cosines to the shading normal; octahedral rounding is below 1e-4
 CONST float TARGET_COS_MIN_MAPPED = 0.1f;    // under a normal map light also comes by the tangent facet
-CONST float TARGET_ALPHA_MIN = 0.005f;       // narrower lobes are widened: rounding moves their peaks
+CONST float TARGET_ALPHA_MIN = 0.001f;       // narrower lobes are widened: octahedral rounding moves their peaks
 CONST uint REUSE_SURFACE_VALID = 1u;
 CONST uint REUSE_SURFACE_MAPPED = 2u;
 
@@ -141,8 +141,9 @@ FN vec3 target_reflectance(IN(TargetSurface) s, vec3 wi) {
     }
     vec3 h = sum * inversesqrt(squared);
     float cos_h = clamp(dot(h, s.normal), 0.0f, 1.0f);
+    vec3 sine_h = cross(h, s.normal);  // its length; 1 - cos_h^2 would cancel in narrow lobes
     float a2 = s.alpha * s.alpha;
-    float t = cos_h * cos_h * (a2 - 1.0f) + 1.0f;  // alpha is never so small that this cancels badly
+    float t = dot(sine_h, sine_h) + cos_h * cos_h * a2;
     float d = INV_PI * a2 / (t * t);
     float masking_o = cos_i * sqrt(cos_o * cos_o * (1.0f - a2) + a2);
     float masking_i = cos_o * sqrt(cos_i * cos_i * (1.0f - a2) + a2);

@@ -27,7 +27,8 @@
     X("light-sampling", FEATURE_LIGHT_SAMPLING, 17) \
     X("resampling", FEATURE_RESAMPLING, 18)            \
     X("motion", FEATURE_MOTION, 19) \
-    X("later-vertices", FEATURE_LATER_VERTICES, 20)
+    X("later-vertices", FEATURE_LATER_VERTICES, 20) \
+    X("target-visibility", FEATURE_TARGET_VISIBILITY, 21)
 
 SHARED_BEGIN
 #define DECLARE_FEATURE(name, constant, bit) CONST uint constant = 1u << bit;

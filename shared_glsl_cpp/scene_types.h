@@ -153,7 +153,7 @@ ASSERT_SIZE(Environment, 36);
 /// How reservoirs are made and reused (restir.kernel.h).
 struct ResamplingConstants {
     uint light_candidates;  // a pixel and frame, by power
-    uint bsdf_candidates;   // 0 or 1, where the surface is glossy enough to gain
+    uint bsdf_candidates;   // 0 or 1: also by sampling the material
     uint temporal;          // 1: reuse the frame before
     uint spatial_passes;
     uint neighbors;         // a spatial pass, at most RESAMPLING_MAX_NEIGHBORS
@@ -161,8 +161,9 @@ struct ResamplingConstants {
     float confidence_cap;   // of the frame before, in this frame's confidences
     uint mis;               // RESAMPLING_…
     uint visibility;        // VISIBILITY_…
+    float reach;            // metres; nearer emitters are seldom picked for their brightness, were one light picked; 0: none
 };
-ASSERT_SIZE(ResamplingConstants, 36);
+ASSERT_SIZE(ResamplingConstants, 40);
 
 CONST uint RESAMPLING_MAX_NEIGHBORS = 8u;
 CONST uint RESAMPLING_PAIRWISE = 0u;            // with defence, O(N)
@@ -196,7 +197,7 @@ struct RenderConstants {
     Camera previous_camera;
     ResamplingConstants resampling;
 };
-ASSERT_SIZE(RenderConstants, 244);
+ASSERT_SIZE(RenderConstants, 248);
 
 CONST uint INTEGRATOR_BRDF = 0u;
 CONST uint INTEGRATOR_DIRECT = 1u;

@@ -45,9 +45,7 @@ PipelineShaders scene_shaders(Spirv ray_generation, bool alpha) {
 void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline,
                      const PipelineLayout& layout, const Bindings& bindings, const shared::Dispatch& dispatch,
                      std::uint32_t width, std::uint32_t height) {
-    commands.bindPipeline(vk::PipelineBindPoint::eRayTracingKHR, *pipeline.pipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eRayTracingKHR, *layout.layout, 0, bindings.set, {});
-    commands.pushConstants<shared::Dispatch>(*layout.layout, pushed_stages, 0, dispatch);
+    bind_pass(commands, pipeline, layout, bindings, dispatch);
     trace(commands, pipeline, width, height);
 }
 
@@ -181,11 +179,21 @@ const vk::raii::Pipeline& PathRenderer::compute_pipeline(Spirv shader) {
 }
 
 void PathRenderer::choose_pipelines() {
-    stages_.fill(nullptr);
-    for (std::size_t i = 0; resamples() && i < resampling_stages; ++i) {
-        const auto stage = static_cast<ResamplingStage>(i);
-        if (stage != ResamplingStage::shade && needs_stage(stage, constants_)) {
-            stages_[i] = &pipeline(resampling_shader(stage));
+    stages_.clear();
+    candidates_ = CandidatePipelines();
+    if (resamples()) {
+        for (const ResamplingStage stage : {ResamplingStage::first_hits, ResamplingStage::temporal,
+                                            ResamplingStage::spatial, ResamplingStage::shadows}) {
+            if (needs_stage(stage, constants_)) {
+                stages_[stage] = &pipeline(resampling_shader(stage));
+            }
+        }
+        candidates_.picked = &compute_pipeline(resampling_shader(ResamplingStage::candidates));
+        if (constants_.resampling.bsdf_candidates != 0) {
+            candidates_.bsdf = &pipeline(shader_binary("restir_bsdf_candidates.rgen"));
+        }
+        if (tests_candidates(constants_)) {
+            candidates_.shadows = &pipeline(shader_binary("restir_candidate_shadows.rgen"));
         }
     }
     const Spirv begin = resamples() ? resampling_shader(ResamplingStage::shade) : shader_binary("wave_begin.comp");

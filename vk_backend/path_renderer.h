@@ -118,7 +118,8 @@ private:
     WavePipelines wave_pipelines_;
     WaveMemory waves_;
     std::shared_ptr<ResamplingMemory> resampling_;
-    std::array<const TracePipeline*, resampling_stages> stages_{};
+    std::map<ResamplingStage, const TracePipeline*> stages_;  // those that trace
+    CandidatePipelines candidates_;
     ResamplingSchedule schedule_;
     ReservoirHook hook_;
     std::optional<std::uint32_t> reservoir_set_;  // that the last frame left

@@ -23,10 +23,6 @@ constexpr std::uint64_t part_of_memory = 16;
 constexpr std::uint64_t bytes_of_path = sizeof(shared::WavePath) + sizeof(shared::FirstHit) +
                                         2 * sizeof(std::uint32_t) + sizeof(shared::Hit) + sizeof(shared::WaveShadow);
 
-std::uint32_t groups_for(std::uint64_t invocations) {
-    return static_cast<std::uint32_t>((invocations + shared::WAVE_GROUP - 1) / shared::WAVE_GROUP);
-}
-
 std::uint64_t pixels_of(const shared::Dispatch& dispatch) {
     return std::uint64_t{dispatch.region.x} * dispatch.region.y;
 }
@@ -92,10 +88,7 @@ void enter_waves(SceneAddresses& addresses, const WaveMemory& memory) {
 SliceWaves::SliceWaves(const WavePipelines& pipelines, const PipelineLayout& layout, const Bindings& bindings,
                        const WaveMemory& memory, const Slice& slice, const shared::Dispatch& request)
     : pipelines_(pipelines), layout_(layout), bindings_(bindings), memory_(memory), dispatch_(request) {
-    dispatch_.origin = {slice.region.x, slice.region.y};
-    dispatch_.region = {slice.region.width, slice.region.height};
-    dispatch_.first_sample = slice.first_sample;
-    dispatch_.sample_count = slice.sample_count;
+    tell(dispatch_, slice);
     dispatch_.path_capacity = memory.capacity;
 }
 
@@ -157,20 +150,13 @@ std::uint64_t SliceWaves::counts_at(std::size_t member) const {
 }
 
 void SliceWaves::compute(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline) const {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
-    push(commands, vk::PipelineBindPoint::eCompute);
+    bind_pass(commands, pipeline, layout_, bindings_, dispatch_);
 }
 
 void SliceWaves::trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline,
                        std::size_t counted) const {
-    commands.bindPipeline(vk::PipelineBindPoint::eRayTracingKHR, *pipeline.pipeline);
-    push(commands, vk::PipelineBindPoint::eRayTracingKHR);
+    bind_pass(commands, pipeline, layout_, bindings_, dispatch_);
     trace_indirect(commands, pipeline, memory_.counts.address + counts_at(counted));
-}
-
-void SliceWaves::push(const vk::raii::CommandBuffer& commands, vk::PipelineBindPoint point) const {
-    commands.bindDescriptorSets(point, *layout_.layout, 0, bindings_.set, {});
-    commands.pushConstants<shared::Dispatch>(*layout_.layout, pushed_stages, 0, dispatch_);
 }
 
 }  // namespace diptych

@@ -3,15 +3,9 @@
 
 #include <cstdint>
 
-#include "../shaders/dispatch.h"
-#include "../shaders/wave.h"
-#include "bindings.h"
-#include "slices.h"
+#include "pass.h"
 
 namespace diptych {
-
-/// Invocations of a compute shader in groups of WAVE_GROUP that any device takes at a time.
-constexpr std::uint64_t most_invocations = std::uint64_t{65535} * shared::WAVE_GROUP;
 
 /// Paths in flight at a time, for a film of so many pixels: one of each, within bounds and a part of the device's
 /// memory. A film of few pixels has several samples of each in flight, one of very many goes in parts.
@@ -71,7 +65,6 @@ public:
 private:
     void compute(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline) const;
     void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::size_t counted) const;
-    void push(const vk::raii::CommandBuffer& commands, vk::PipelineBindPoint point) const;
     void count_from(const vk::raii::CommandBuffer& commands, const shared::WaveCounts& first);
     std::uint64_t counts_at(std::size_t member) const;
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <vector>
 
 #include "path_renderer.h"
@@ -50,18 +51,23 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
 }
 
 std::uint64_t PathRenderer::pixel_limit(ResamplingStage stage) const {
-    return stage == ResamplingStage::shade ? most_invocations : gpu_->ray_tracing.maxRayDispatchInvocationCount;
+    const std::uint64_t most_rays = gpu_->ray_tracing.maxRayDispatchInvocationCount;
+    return stage == ResamplingStage::shade        ? most_invocations
+           : stage == ResamplingStage::candidates ? std::min(most_invocations, most_rays)
+                                                  : most_rays;
 }
 
 void PathRenderer::record_stage(const vk::raii::CommandBuffer& commands, ResamplingStage stage, const Slice& slice,
                                 shared::Dispatch dispatch) const {
+    tell(dispatch, slice);
     if (stage == ResamplingStage::shade) {
         SliceWaves(wave_pipelines_, layout_, bindings_, waves_, slice, dispatch).begin(commands);
-        return;
+    } else if (stage == ResamplingStage::candidates) {
+        record_candidates(commands, candidates_, layout_, bindings_, *resampling_, dispatch);
+    } else {
+        record_dispatch(commands, *stages_.at(stage), layout_, bindings_, dispatch, slice.region.width,
+                        slice.region.height);
     }
-    dispatch.origin = {slice.region.x, slice.region.y};
-    record_dispatch(commands, *stages_[static_cast<std::size_t>(stage)], layout_, bindings_, dispatch,
-                    slice.region.width, slice.region.height);
 }
 
 void PathRenderer::show_reservoirs(const ResamplingStep& step) {

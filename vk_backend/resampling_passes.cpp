@@ -1,23 +1,29 @@
 #include "resampling_passes.h"
 
+#include <array>
+
+#include "commands.h"
 #include "shader_binaries.h"
 
 namespace diptych {
 namespace {
 
-Buffer film_buffer(const Gpu& gpu, const char* what, std::uint64_t bytes) {
-    return bytes == 0
-               ? Buffer{}
-               : make_buffer(gpu, what, bytes,
-                             vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eShaderDeviceAddress |
-                                 vk::BufferUsageFlagBits::eTransferSrc,
-                             MemoryKind::device);
+using Usage = vk::BufferUsageFlagBits;
+
+Buffer film_buffer(const Gpu& gpu, const char* what, std::uint64_t bytes,
+                   vk::BufferUsageFlags more = Usage::eTransferSrc) {
+    return bytes == 0 ? Buffer{}
+                      : make_buffer(gpu, what, bytes, Usage::eStorageBuffer | Usage::eShaderDeviceAddress | more,
+                                    MemoryKind::device);
 }
+
+constexpr std::array<std::uint32_t, 3> empty_list = {0, 1, 1};  // an indirect command
 
 struct Bytes {
     std::uint64_t first_vertices;
     std::uint64_t reservoirs;
     std::uint64_t surfaces;
+    std::uint64_t candidate_list;
 };
 
 Bytes bytes_for(const shared::RenderConstants& constants) {
@@ -25,7 +31,10 @@ Bytes bytes_for(const shared::RenderConstants& constants) {
     const std::uint64_t pixels = std::uint64_t{constants.size.x} * constants.size.y;
     return {.first_vertices = pixels * sets.first_vertices * sizeof(shared::FirstVertex),
             .reservoirs = pixels * sets.reservoirs * sizeof(shared::Reservoir),
-            .surfaces = pixels * sets.surfaces * sizeof(shared::ReuseSurface)};
+            .surfaces = pixels * sets.surfaces * sizeof(shared::ReuseSurface),
+            .candidate_list = sets.first_vertices > 0 && constants.resampling.bsdf_candidates != 0
+                                  ? sizeof(empty_list) + pixels * sizeof(std::uint32_t)
+                                  : 0};
 }
 
 }  // namespace
@@ -34,23 +43,26 @@ ResamplingMemory make_resampling_memory(const Gpu& gpu, const shared::RenderCons
     const Bytes bytes = bytes_for(constants);
     return {.first_vertices = film_buffer(gpu, "first vertices", bytes.first_vertices),
             .reservoirs = film_buffer(gpu, "reservoirs", bytes.reservoirs),
-            .surfaces = film_buffer(gpu, "reuse surfaces", bytes.surfaces)};
+            .surfaces = film_buffer(gpu, "reuse surfaces", bytes.surfaces),
+            .candidate_list = film_buffer(gpu, "candidates that need rays", bytes.candidate_list,
+                                          Usage::eIndirectBuffer | Usage::eTransferDst)};
 }
 
 bool fits(const ResamplingMemory& memory, const shared::RenderConstants& constants) {
     const Bytes bytes = bytes_for(constants);
     return memory.first_vertices.size == bytes.first_vertices && memory.reservoirs.size == bytes.reservoirs &&
-           memory.surfaces.size == bytes.surfaces;
+           memory.surfaces.size == bytes.surfaces && memory.candidate_list.size == bytes.candidate_list;
 }
 
 void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory) {
     addresses.first_vertices = memory.first_vertices.address;
     addresses.reservoirs = memory.reservoirs.address;
     addresses.reuse_surfaces = memory.surfaces.address;
+    addresses.candidate_list = memory.candidate_list.address;
 }
 
 std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory) {
-    return memory.first_vertices.size + memory.reservoirs.size + memory.surfaces.size;
+    return memory.first_vertices.size + memory.reservoirs.size + memory.surfaces.size + memory.candidate_list.size;
 }
 
 Spirv resampling_shader(ResamplingStage stage) {
@@ -58,7 +70,7 @@ Spirv resampling_shader(ResamplingStage stage) {
     case ResamplingStage::first_hits:
         return shader_binary("restir_first_hits.rgen");
     case ResamplingStage::candidates:
-        return shader_binary("restir_candidates.rgen");
+        return shader_binary("restir_candidates.comp");
     case ResamplingStage::temporal:
         return shader_binary("restir_temporal.rgen");
     case ResamplingStage::spatial:
@@ -69,6 +81,27 @@ Spirv resampling_shader(ResamplingStage stage) {
         break;
     }
     return shader_binary("restir_shade.comp");
+}
+
+void record_candidates(const vk::raii::CommandBuffer& commands, const CandidatePipelines& pipelines,
+                       const PipelineLayout& layout, const Bindings& bindings, const ResamplingMemory& memory,
+                       const shared::Dispatch& dispatch) {
+    if (pipelines.bsdf != nullptr) {
+        commands.updateBuffer<std::uint32_t>(*memory.candidate_list.handle, 0, empty_list);
+        full_barrier(commands);
+    }
+    bind_pass(commands, *pipelines.picked, layout, bindings, dispatch);
+    commands.dispatch(groups_for(std::uint64_t{dispatch.region.x} * dispatch.region.y), 1, 1);
+    if (pipelines.bsdf != nullptr) {
+        full_barrier(commands);
+        bind_pass(commands, *pipelines.bsdf, layout, bindings, dispatch);
+        trace_indirect(commands, *pipelines.bsdf, memory.candidate_list.address);
+    }
+    if (pipelines.shadows != nullptr) {
+        full_barrier(commands);
+        bind_pass(commands, *pipelines.shadows, layout, bindings, dispatch);
+        trace(commands, *pipelines.shadows, dispatch.region.x, dispatch.region.y);
+    }
 }
 
 }  // namespace diptych

@@ -1,22 +1,20 @@
 // ReSTIR's passes on the device: their pipelines and what they keep for every pixel.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "buffer.h"
-#include "pipeline.h"
+#include "pass.h"
 #include "render/resampling_schedule.h"
 #include "scene_addresses.h"
 
 namespace diptych {
 
-constexpr std::size_t resampling_stages = 6;  // of ResamplingStage
-
 struct ResamplingMemory {
     Buffer first_vertices;
     Buffer reservoirs;
     Buffer surfaces;
+    Buffer candidate_list;  // of a slice, those that need rays, after its indirect command
 };
 
 /// The buffers that the constants' integrator needs.
@@ -29,7 +27,19 @@ void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory)
 
 std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory);
 
-/// The ray generation shader of a stage; of shade, the compute shader with which its waves begin.
+/// The ray generation shader of a stage; of candidates and shade, the compute shader with which they begin.
 Spirv resampling_shader(ResamplingStage stage);
+
+/// Pipelines of the stage of candidates, none of them owned.
+struct CandidatePipelines {
+    const vk::raii::Pipeline* picked = nullptr;
+    const TracePipeline* bsdf = nullptr;     // null where no material is sampled
+    const TracePipeline* shadows = nullptr;  // null where none is tested
+};
+
+/// Records the stage of candidates for the slice that `dispatch` tells of.
+void record_candidates(const vk::raii::CommandBuffer& commands, const CandidatePipelines& pipelines,
+                       const PipelineLayout& layout, const Bindings& bindings, const ResamplingMemory& memory,
+                       const shared::Dispatch& dispatch);
 
 }  // namespace diptych

@@ -18,6 +18,7 @@ struct SceneAddresses {
     std::uint64_t first_vertices = 0;
     std::uint64_t reservoirs = 0;
     std::uint64_t reuse_surfaces = 0;
+    std::uint64_t candidate_list = 0;
     std::uint64_t recorded_rays = 0;
     std::uint64_t ray_counters = 0;
     std::uint64_t path_queries = 0;

@@ -96,6 +96,9 @@ std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings
     const bool samples_lights =
         settings.integrator == Integrator::brdf ? (bits & shared::FEATURE_PUNCTUAL) != 0 : has_light;
     bits |= resamples(settings.integrator) ? shared::FEATURE_RESAMPLING : 0U;
+    bits |= settings.integrator == Integrator::restir && settings.resampling.visibility == ResamplingVisibility::target
+                ? shared::FEATURE_TARGET_VISIBILITY
+                : 0U;
     bits |= settings.integrator == Integrator::restir && settings.moves ? shared::FEATURE_MOTION : 0U;
     bits |= samples_lights ? shared::FEATURE_LIGHT_SAMPLING : 0U;
     // Of direct light alone, only what a mirror shows is found by a ray from the first vertex.

@@ -128,6 +128,26 @@ void pack_spot_cone(const PunctualLight& light, shared::PunctualLight& out) {
     out.cone_offset = static_cast<float>(-cos_outer * scale);
 }
 
+// A point of an emitter at distance r, of radiance L, is picked with probability p per area, and then stands for
+// f cos cos' L / (p r^2). Picking is by power, so L / p is one number S for the whole scene, the defensive share aside.
+// Where r^2 is S / L, L the emitters' mean radiance, that is f cos cos' L: about as much as material sampling gives it.
+void find_reach(PackedScene& packed) {
+    double power = 0;
+    double brightness = 0;  // power times radiance
+    double share = 0;
+    for (std::size_t i = 0; i < packed.emissive_triangles.size(); ++i) {
+        const shared::EmissiveTriangle& light = packed.emissive_triangles[i];
+        const double own = packed.light_powers[i];
+        if (own > 0) {
+            power += own / pi;
+            brightness += own / pi * (own / (pi * 0.5 * static_cast<double>(light.double_area)));
+            share += static_cast<double>(light.pmf);
+        }
+    }
+    shared::ResamplingConstants& resampling = packed.constants.resampling;
+    resampling.reach = brightness > 0 ? static_cast<float>(power / std::sqrt(share * brightness)) : 0;
+}
+
 }  // namespace
 
 void place_emitters(PackedScene& packed, std::size_t instance, bool materials_changed) {
@@ -200,6 +220,7 @@ void weigh_lights(PackedScene& packed) {
     constants.light_count = any ? static_cast<std::uint32_t>(packed.light_table.size()) : 0;
     constants.emissive_triangle_count = static_cast<std::uint32_t>(packed.emissive_triangles.size());
     constants.punctual_light_count = static_cast<std::uint32_t>(packed.punctual_lights.size());
+    find_reach(packed);
 }
 
 void pack_lights(const Scene& scene, PackedScene& packed) {

@@ -20,6 +20,12 @@ bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants
     return resamples;
 }
 
+bool tests_candidates(const shared::RenderConstants& constants) {
+    const std::uint32_t visibility = constants.resampling.visibility;
+    return MUTANT(INITIAL_CULL, false, true) || visibility == shared::VISIBILITY_IN_TARGET ||
+           visibility == shared::VISIBILITY_BIASED_INITIAL;
+}
+
 std::uint32_t resulting_set(const ResamplingStep& step) {
     return step.stage == ResamplingStage::spatial ? step.pass.other_reservoirs : step.pass.reservoirs;
 }

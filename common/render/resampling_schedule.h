@@ -28,6 +28,9 @@ std::vector<std::string> pass_names(const shared::RenderConstants& constants);
 /// Whether any frame will run the stage; false for integrators that do not resample.
 bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants);
 
+/// Whether initial reservoirs keep only what is seen.
+bool tests_candidates(const shared::RenderConstants& constants);
+
 /// Films of each kind that the settings need. Two sets of reservoirs serve any number of spatial passes: a frame's
 /// history is dead once its temporal pass is over, and its memory takes the first spatial pass's results.
 struct ResamplingSets {

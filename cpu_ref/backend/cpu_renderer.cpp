@@ -203,7 +203,12 @@ private:
                         kernel.find_first_vertex(pixel, step.pass);
                         break;
                     case ResamplingStage::candidates:
-                        kernel.resample_candidates(pixel, step.pass);
+                        if (const std::uint32_t needs = kernel.resample_candidates(pixel, step.pass); needs != 0) {
+                            kernel.add_bsdf_candidate(pixel, needs, step.pass);
+                        }
+                        if (tests_candidates(constants_)) {
+                            kernel.test_candidate(pixel, step.pass);
+                        }
                         break;
                     case ResamplingStage::temporal:
                         kernel.reuse_temporal(pixel, step.pass);

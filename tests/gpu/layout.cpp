@@ -108,7 +108,7 @@ std::map<std::string, Offsets> cpp_offsets() {
           FIELD(ResamplingConstants, temporal), FIELD(ResamplingConstants, spatial_passes),
           FIELD(ResamplingConstants, neighbors), FIELD(ResamplingConstants, radius),
           FIELD(ResamplingConstants, confidence_cap), FIELD(ResamplingConstants, mis),
-          FIELD(ResamplingConstants, visibility)}},
+          FIELD(ResamplingConstants, visibility), FIELD(ResamplingConstants, reach)}},
         {"ResamplingPass",
          {FIELD(ResamplingPass, frame), FIELD(ResamplingPass, reservoirs), FIELD(ResamplingPass, other_reservoirs),
           FIELD(ResamplingPass, surfaces), FIELD(ResamplingPass, has_history), FIELD(ResamplingPass, iteration)}},
@@ -168,6 +168,7 @@ Offsets address_offsets() {
     offsets["first_vertices"] = offsetof(SceneAddresses, first_vertices);
     offsets["reservoirs"] = offsetof(SceneAddresses, reservoirs);
     offsets["reuse_surfaces"] = offsetof(SceneAddresses, reuse_surfaces);
+    offsets["candidate_list"] = offsetof(SceneAddresses, candidate_list);
     offsets["recorded_rays"] = offsetof(SceneAddresses, recorded_rays);
     offsets["ray_counters"] = offsetof(SceneAddresses, ray_counters);
     offsets["path_queries"] = offsetof(SceneAddresses, path_queries);

@@ -141,7 +141,7 @@ TEST_CASE("Settings met before compile nothing, on the device") {
     const Film first = shoot(renderer);
     renderer.reconfigure(pack_scene(scene, restir));
     const std::size_t compiled = renderer.pipelines_compiled();
-    CHECK(compiled == 15);
+    CHECK(compiled == 16);
     const Film resampled = shoot(renderer);
     renderer.reconfigure(pack_scene(scene, path));
     CHECK(same_film(shoot(renderer), first));

@@ -143,6 +143,12 @@ const std::vector<Case>& cases() {
              r.moves = true;
          },
          FEATURE_RESAMPLING | FEATURE_MOTION},
+        {"restir with visibility in its target",
+         [](Scene&, RenderSettings& r) {
+             r.integrator = Integrator::restir;
+             r.resampling.visibility = ResamplingVisibility::target;
+         },
+         FEATURE_RESAMPLING | FEATURE_TARGET_VISIBILITY},
         {"path that moves", [](Scene&, RenderSettings& r) { r.moves = true; }, 0},
         {"no light to sample", [](Scene&, RenderSettings& r) { r.integrator = Integrator::path; }, 0},
         {"one bounce, found by chance", [](Scene&, RenderSettings& r) { r.max_depth = 1; }, 0},

@@ -77,6 +77,36 @@ inline Scene hidden_lamp() {
     return scene;
 }
 
+/// A floor under a bulb that hangs so low that it outshines, where it is, a ceiling of a thousand lamps of which each
+/// has 25 times its power.
+inline Scene bulb_close_by() {
+    Scene scene;
+    scene.name = "bulb";
+    const int floor = add_material(scene, diffuse_material(0.8F));
+    const int lamp = add_material(scene, make_emitter("lamp", glm::vec3(100)));
+    std::vector<Primitive> parts{horizontal_square({0, 0, 0}, 2, true, floor),
+                                 horizontal_square({0.002F, 0.01F, 0}, 0.002F, false, lamp)};
+    for (int i = 0; i < 1024; ++i) {
+        parts.push_back(horizontal_square({0.1F * static_cast<float>(i % 32), 3, 0.1F * static_cast<float>(i / 32)},
+                                          0.01F, false, lamp));
+    }
+    add_object(scene, "room", parts);
+    scene.cameras.push_back(make_camera("eye", {0, 0.06, 0.06}, {0, 0, 0}, 30));
+    return scene;
+}
+
+/// A floor under one lamp, a little higher than it is wide.
+inline Scene lamp_overhead() {
+    Scene scene;
+    scene.name = "lamp overhead";
+    const int floor = add_material(scene, diffuse_material(0.8F));
+    const int lamp = add_material(scene, make_emitter("lamp", glm::vec3(5)));
+    add_object(scene, "room",
+               {horizontal_square({0, 0, 0}, 2, true, floor), horizontal_square({0, 0.55F, 0}, 0.25F, false, lamp)});
+    scene.cameras.push_back(make_camera("eye", {0, 0.3, 0.5}, {0, 0, 0}, 20));
+    return scene;
+}
+
 /// `moving-light` with nothing moving but what one animation moves; a frame is 1/8 s. Of the switches only one.
 inline ChainCase moving_case(const std::string& name, const std::string& animation, double start,
                              std::size_t channel = 0) {

@@ -18,12 +18,14 @@ TEST_CASE("restir is unbiased at every frame, whatever its weights and wherever 
 TEST_CASE("restir is unbiased where neighbours see the lamp by turns") {
     for (const bool glossy : {false, true}) {
         ChainCase c = chain_case(glossy ? "glossy slats" : "slats", slats(glossy));
+        ChainSize size;
         if (glossy) {
             c.settings.resampling.light_candidates = 1;  // so that the material's own candidate counts
+            size.copies = 12;
         }
-        check_frames(c, {0, 1, 8}, 6);
+        check_frames(c, {0, 1, 8}, 6, size);
         c.settings.resampling.visibility = ResamplingVisibility::target;
-        check_frames(c, {0, 1, 8}, 6);
+        check_frames(c, {0, 1, 8}, 6, size);
     }
 }
 
@@ -57,6 +59,27 @@ TEST_CASE("ris is unbiased on glossy surfaces, where material sampling finds the
         c.settings.integrator = integrator;
         check_frames(c, {0, 3}, 20);
     }
+}
+
+TEST_CASE("A bulb close by is found by its solid angle, without bias and with less noise than by its power") {
+    ChainCase c = chain_case("bulb close by", bulb_close_by());
+    check_frames(c, {8}, 7, {16, 24});
+
+    c.settings.integrator = Integrator::ris;
+    const auto spread = [&](bool by_material) {
+        c.settings.resampling.bsdf_candidate = by_material;
+        const std::vector<double> means = run_chains(c, {}, {0}, on_cpu, 3)[0];
+        return difference(means, means).half_width;
+    };
+    std::printf("bulb close by, ris: +- %.2f %%, without material sampling %.2f %%\n", spread(true), spread(false));
+    CHECK(spread(true) < 0.5 * spread(false));
+}
+
+TEST_CASE("A lamp just too far to be found by its solid angle is left to its power") {
+    ChainCase c = chain_case("lamp overhead", lamp_overhead());
+    c.settings.integrator = Integrator::ris;
+    c.settings.resampling.light_candidates = 1;  // of one lamp the reach is its side
+    check_frames(c, {0}, 1, {16, 32});
 }
 
 TEST_CASE("Spatial passes draw apart") {

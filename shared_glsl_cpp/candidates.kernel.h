@@ -1,0 +1,150 @@
+// The first vertex's initial reservoir, from light points that are picked by power (restir.kernel.h). Nothing is traced here.
+#ifndef CANDIDATES_KERNEL_H
+#define CANDIDATES_KERNEL_H
+
+#include "light_point.kernel.h"
+#include "path.kernel.h"
+
+/// The target without visibility, per uv.
+FN float unoccluded_target(IN(TargetSurface) s, IN(SeenLight) light) {
+    return light.measure * luminance(target_reflectance(s, light.direction) * light.radiance);
+}
+
+/// How a surface's material is sampled for a candidate.
+struct BsdfCandidate {
+    float probability;
+    float reach;  // metres, along which it finds lights
+};
+
+/// Narrow lobes always, and as far as they reach: lights are seldom picked within them. Others now and then, for lamps close by: those are
+/// picked by their power and not for being near, so seldom and with a weight as large as that is seldom. That they might be found by
+/// their solid angle bounds it, and short rays are cheap.
+FN BsdfCandidate bsdf_candidate(IN(SurfaceBsdf) bsdf) {
+    BsdfCandidate c;
+    c.probability = 0.0f;
+    c.reach = 0.0f;
+    if (constants.resampling.bsdf_candidates != 0u) {
+        bool glossy = max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f;
+        bool narrow = glossy && bsdf.parameters.alpha < 0.1f;
+        c.reach = narrow ? INFINITE_DISTANCE
+                         : constants.resampling.reach * inversesqrt(float(constants.resampling.light_candidates));
+        c.probability = narrow ? 1.0f : (c.reach > 0.0f ? BSDF_CANDIDATE_NEARBY : 0.0f);
+    }
+    return c;
+}
+
+/// Whether material sampling could have found the light point.
+FN bool is_within(IN(BsdfCandidate) c, vec3 origin, IN(SeenLight) light) {
+    float distance = light.distant ? INFINITE_DISTANCE : length(light.end - origin);
+    return light.by_chance && MUTANT(CANDIDATE_BEYOND_REACH, distance <= c.reach, true);
+}
+
+/// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it by the square of
+/// the ratio: a point that others chose by the wide lobe would be a firefly now and then, where sampling the material finds none.
+FN bool wants_reuse(IN(SurfaceBsdf) bsdf) { return bsdf.parameters.alpha >= TARGET_ALPHA_MIN; }
+
+/// A surface that takes its light from a reservoir.
+struct FirstSurface {
+    bool takes_light;  // else the rest means nothing
+    SurfaceBsdf bsdf;
+    vec3 wo;
+    vec3 origin;  // of its rays
+    ReuseSurface packed;
+    Sampler random;
+};
+
+/// What a camera's ray met.
+FN FirstSurface load_first_surface(uvec2 pixel, IN(ResamplingPass) pass, IN(Hit) hit) {
+    FirstSurface first;
+    first.takes_light = false;
+    PathState path = begin_path(pixel, pass.frame);
+    first.random = path.random;
+    if (hit.instance != NONE && constants.max_depth > 0u) {
+        first.wo = -path.direction;
+        LOCAL(Instance) instance = load_instances(hit.instance);
+        Surface surface = load_surface(hit, instance, path.origin, path.direction);
+        LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
+        first.bsdf = load_bsdf(surface, instance, material, first.wo);
+        if ((material.flags & MATERIAL_UNLIT) == 0u && !bsdf_is_purely_delta(first.bsdf.parameters, features())) {
+            first.takes_light = true;
+            first.origin = offset_ray(surface.start, first.bsdf.geometric_normal, surface.magnitude);
+            first.packed = pack_reuse_surface(first.origin, first.bsdf, first.wo);
+        }
+    }
+    return first;
+}
+
+/// Light points picked by power, one kept in proportion to the target.
+FN Resampling resample_lights(IN(TargetSurface) surface, IN(Sampler) random) {
+    Resampling chosen = begin_resampling();
+    uint count = constants.resampling.light_candidates;
+    for (uint i = 0u; i < count; i++) {
+        uvec4 words = independent_words(random, DIMENSION_CANDIDATE + i);
+        uvec4 pick = independent_words(random, DIMENSION_CANDIDATE_PICK + i);
+        LightPointSample candidate = sample_light_point(words, uvec2(pick.y, pick.z));
+        if (!(candidate.pdf > 0.0f)) {
+            continue;
+        }
+        float target = unoccluded_target(surface, see_light_point(candidate.point, surface.position, MOMENT_CURRENT));
+        add_candidate(chosen, candidate.point, target, target / (float(count) * candidate.pdf), unit_float(pick.x));
+    }
+    return chosen;
+}
+
+/// Of confidence 1 whatever it holds.
+FN Reservoir initial_reservoir(IN(Resampling) chosen) {
+    return end_resampling(chosen, 1.0f, MUTANT(CONFIDENCE_BY_SAMPLE, 1.0f, clamp(chosen.target, 0.1f, 10.0f)));
+}
+
+/// How much of a picked point's weight, were it visible, the balance heuristic gives to sampling the material, which is done with
+/// probability q: r = q p_bsdf / (q p_bsdf + n p_pick).
+FN float bsdf_share(IN(FirstSurface) first, IN(LightPoint) picked, IN(SeenLight) light) {
+    BsdfCandidate c = bsdf_candidate(first.bsdf);
+    if (!(c.probability > 0.0f) || !is_within(c, first.origin, light)) {
+        return 0.0f;
+    }
+    float pdf_bsdf = c.probability * light.measure * surface_bsdf_pdf(first.bsdf, first.wo, light.direction, features());
+    float pdf_picked = float(constants.resampling.light_candidates) * pdf_light_point(picked);
+    return pdf_bsdf / (pdf_bsdf + pdf_picked);
+}
+
+/// A picked point keeps 1 - V r, as the material's sampling finds only what is visible (V). Where r is small it seldom pays to look: with
+/// probability s = min(1, r / BSDF_SHARE_LEAST) the point is looked at, and keeps 1 - r / s where it is seen, which comes to the same.
+/// What is not looked at has r < BSDF_SHARE_LEAST, so its weight is bounded too.
+FN uint bsdf_candidate_needs(IN(FirstSurface) first, IN(Reservoir) picked) {
+    float q = bsdf_candidate(first.bsdf).probability;
+    uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
+    uint needs = unit_float(pick.y) < q ? CANDIDATE_SAMPLES_BSDF : 0u;
+    if (q > 0.0f && picked.weight > 0.0f) {
+        SeenLight light = see_light_point(picked.point, first.origin, MOMENT_CURRENT);
+        float r = bsdf_share(first, picked.point, light);
+        needs |= unit_float(pick.z) * BSDF_SHARE_LEAST < r ? CANDIDATE_TESTS_PICKED : 0u;
+    }
+    return needs;
+}
+
+/// The reservoir, for now, and the surface for others. Returns what add_bsdf_candidate has to do, if anything.
+FN uint resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
+    uint index = pixel_index(pixel);
+    FirstVertex vertex = load_first_vertex(index);
+    FirstSurface first = load_first_surface(pixel, pass, vertex.hit);
+    Reservoir reservoir = empty_reservoir();
+    ReuseSurface kept = no_reuse_surface();
+    uint needs = 0u;
+    if (first.takes_light) {
+        vertex.origin = first.origin;
+        store_first_vertex(index, vertex);
+        reservoir = initial_reservoir(resample_lights(unpack_reuse_surface(first.packed), first.random));
+        needs = bsdf_candidate_needs(first, reservoir);
+        if (wants_reuse(first.bsdf)) {
+            kept = first.packed;
+        }
+    }
+    store_reservoir(pass.reservoirs, index, reservoir);
+    if (constants.integrator == INTEGRATOR_RESTIR) {
+        store_reuse_surface(pass.surfaces, index, kept);
+    }
+    return needs;
+}
+
+#endif
