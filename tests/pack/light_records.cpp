@@ -209,3 +209,33 @@ TEST_CASE("A black sky is no light") {
     CHECK(packed.environment_table.empty());
     CHECK(packed.constants.light_count == 0);
 }
+
+TEST_CASE("Emitters are too near to be left to their power within about the width of all that shines") {
+    Scene scene = least_scene();
+    RenderSettings settings = path_settings();
+    settings.integrator = Integrator::ris;
+    CHECK(pack_scene(scene, settings).constants.resampling.reach == 0.0F);
+
+    const auto add_square = [&](float side, bool double_sided) {
+        Material material = make_emitter("lamp", glm::vec3(3));
+        material.double_sided = double_sided;
+        Primitive square;
+        square.material = add_material(scene, material);
+        add_quad(square, {0, 5, 0}, {side, 5, 0}, {side, 5, side}, {0, 5, side});
+        add_object(scene, "lamp", {square});
+    };
+    add_square(2, true);
+    CHECK(pack_scene(scene, settings).constants.resampling.reach == Approx(2).epsilon(1e-5));
+    add_square(1.5F, true);
+    CHECK(pack_scene(scene, settings).constants.resampling.reach == Approx(2.5).epsilon(1e-5));
+
+    scene.environment.kind = EnvironmentKind::constant;  // takes its share of the picks
+    scene.environment.scale = glm::vec3(0.1F);
+    const PackedScene packed = pack_scene(scene, settings);
+    double share = 0;
+    for (const shared::EmissiveTriangle& light : packed.emissive_triangles) {
+        share += static_cast<double>(light.pmf);
+    }
+    CHECK(share < 0.9);
+    CHECK(packed.constants.resampling.reach == Approx(2.5 / std::sqrt(share)).epsilon(1e-5));
+}
