@@ -21,7 +21,7 @@ void add_resampling_options(CLI::App& command, RenderArguments& arguments) {
     add("--candidates", settings.light_candidates, "Light points a pixel and frame, picked by power")
         ->check(CLI::Range(1, 1024));
     flag("--bsdf-candidate,!--no-bsdf-candidate", settings.bsdf_candidate,
-         "One more by sampling the material, where it is glossy; on by default");
+         "One more by sampling the material, where it is glossy or lamps are close; on by default");
     flag("--temporal,!--no-temporal", settings.temporal, "restir: reuse the frame before; on by default");
     add("--spatial-passes", settings.spatial_passes, "restir: times that neighbours are reused")
         ->check(CLI::Range(0, 8));

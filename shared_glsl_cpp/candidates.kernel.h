@@ -18,14 +18,14 @@ struct BsdfCandidate {
 
 /// Narrow lobes always, and as far as they reach: lights are seldom picked within them. Others now and then, for lamps close by: those are
 /// picked by their power and not for being near, so seldom and with a weight as large as that is seldom. That they might be found by
-/// their solid angle bounds it, and short rays are cheap.
+/// their solid angle bounds it where they are visible and about as bright as the scene's lamps are, and short rays are cheap.
 FN BsdfCandidate bsdf_candidate(IN(SurfaceBsdf) bsdf) {
     BsdfCandidate c;
     c.probability = 0.0f;
     c.reach = 0.0f;
     if (constants.resampling.bsdf_candidates != 0u) {
         bool glossy = max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f;
-        bool narrow = glossy && bsdf.parameters.alpha < 0.1f;
+        bool narrow = glossy && bsdf.parameters.alpha < 0.1f && !bsdf_is_mirror(bsdf.parameters, features());
         c.reach = narrow ? INFINITE_DISTANCE
                          : constants.resampling.reach * inversesqrt(float(constants.resampling.light_candidates));
         c.probability = narrow ? 1.0f : (c.reach > 0.0f ? BSDF_CANDIDATE_NEARBY : 0.0f);
@@ -38,10 +38,6 @@ FN bool is_within(IN(BsdfCandidate) c, vec3 origin, IN(SeenLight) light) {
     float distance = light.distant ? INFINITE_DISTANCE : length(light.end - origin);
     return light.by_chance && MUTANT(CANDIDATE_BEYOND_REACH, distance <= c.reach, true);
 }
-
-/// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it by the square of
-/// the ratio: a point that others chose by the wide lobe would be a firefly now and then, where sampling the material finds none.
-FN bool wants_reuse(IN(SurfaceBsdf) bsdf) { return bsdf.parameters.alpha >= TARGET_ALPHA_MIN; }
 
 /// A surface that takes its light from a reservoir.
 struct FirstSurface {
@@ -110,7 +106,7 @@ FN float bsdf_share(IN(FirstSurface) first, IN(LightPoint) picked, IN(SeenLight)
 
 /// A picked point keeps 1 - V r, as the material's sampling finds only what is visible (V). Where r is small it seldom pays to look: with
 /// probability s = min(1, r / BSDF_SHARE_LEAST) the point is looked at, and keeps 1 - r / s where it is seen, which comes to the same.
-/// What is not looked at has r < BSDF_SHARE_LEAST, so its weight is bounded too.
+/// What is not looked at has r < BSDF_SHARE_LEAST.
 FN uint bsdf_candidate_needs(IN(FirstSurface) first, IN(Reservoir) picked) {
     float q = bsdf_candidate(first.bsdf).probability;
     uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
@@ -136,7 +132,7 @@ FN uint resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
         store_first_vertex(index, vertex);
         reservoir = initial_reservoir(resample_lights(unpack_reuse_surface(first.packed), first.random));
         needs = bsdf_candidate_needs(first, reservoir);
-        if (wants_reuse(first.bsdf)) {
+        if (wants_reuse(first.bsdf, first.wo)) {
             kept = first.packed;
         }
     }

@@ -1,5 +1,5 @@
 // ReSTIR direct light (Bitterli et al. 2020) in its unbiased GRIS form (Lin et al. 2022), as passes over the film: `first hits` traces
-// the camera's rays; `candidates` resamples light points for what they met; `temporal` merges what the same surface had a frame before;
+// the camera's rays; `candidates` resamples light points for what they met, in passes that pick, sample materials where that pays, and test what is seen if the target asks; `temporal` merges what the same surface had a frame before;
 // `spatial` merges what neighbours have; `shadows` asks whether the point that came out is seen; `shade` takes the first vertex's direct
 // light from it and goes on as a path. `ris` is all of them but the two that merge.
 //
@@ -48,6 +48,9 @@ FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, INOUT(uint) rays)
     rays += 1u;
     BsdfCandidate c = bsdf_candidate(first.bsdf);
     Hit hit = trace_within(first.origin, next.direction, c.reach, ray_alpha_key(first.random, 0x40000000u));
+    if (hit.instance == NONE && c.reach < INFINITE_DISTANCE) {
+        return found;
+    }
     LightPoint y = light_point_of_hit(hit, next.direction);
     if (y.light < constants.light_count) {
         SeenLight light = see_light_point(y, first.origin, MOMENT_CURRENT);
@@ -70,8 +73,11 @@ FN void add_bsdf_candidate(uvec2 pixel, uint needs, IN(ResamplingPass) pass) {
         float kept = 1.0f;
         if ((needs & CANDIDATE_TESTS_PICKED) != 0u) {
             vertex.rays += 1u;
-            bool seen = MUTANT(BSDF_CANDIDATE_BLIND, !is_light_occluded(first.origin, light, picked.point, MOMENT_CURRENT), true);
-            kept -= seen ? max(bsdf_share(first, picked.point, light), BSDF_SHARE_LEAST) : 0.0f;
+            // Past stochastic alpha by a throw of its own: the target's is for the point, and would be asked twice.
+            uint key = MUTANT(CANDIDATE_ALPHA_SHARED, ray_alpha_key(first.random, 0x40000001u), visibility_key(picked.point));
+            bool seen = MUTANT(BSDF_CANDIDATE_BLIND, !is_light_hidden(first.origin, light, key), true);
+            float share = bsdf_share(first, picked.point, light);
+            kept -= seen ? MUTANT(CANDIDATE_SHARE_UNDIVIDED, max(share, BSDF_SHARE_LEAST), share) : 0.0f;
         }
         float target = unoccluded_target(surface, light);
         add_candidate(chosen, picked.point, target, kept * target * picked.weight, 0.0f);
@@ -237,10 +243,8 @@ FN void trace_shadow_of_chosen(uvec2 pixel, IN(ResamplingPass) pass) {
     }
     FirstVertex vertex = load_first_vertex(index);
     SeenLight light = see_light_point(chosen.point, vertex.origin, MOMENT_CURRENT);
-    vec3 direction = light.distant ? light.direction : light.end - vertex.origin;
-    float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
     Sampler random = make_sampler(pixel, pass.frame, constants.seed, constants.sampler_kind, constants.sample_count);
-    vertex.occluded = trace_any(vertex.origin, direction, t_max, ray_alpha_key(random, 1u)) ? 1u : 0u;
+    vertex.occluded = is_light_hidden(vertex.origin, light, ray_alpha_key(random, 1u)) ? 1u : 0u;
     vertex.rays += 1u;
     store_first_vertex(index, vertex);
     bool hands_on = MUTANT(FINAL_CULL, constants.resampling.visibility != VISIBILITY_BIASED_FINAL, false);

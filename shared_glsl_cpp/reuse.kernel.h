@@ -30,13 +30,20 @@ FN uint visibility_key(IN(LightPoint) y) {
     return pcg4d(uvec4(y.light, floatBitsToUint(y.uv.x), floatBitsToUint(y.uv.y), constants.seed)).x >> 1;
 }
 
+/// Whether the light point is hidden now from a ray of that key.
+FN bool is_light_hidden(vec3 origin, IN(SeenLight) light, uint alpha_key) {
+    vec3 direction = light.distant ? light.direction : light.end - origin;
+    return trace_any(origin, direction, light.distant ? INFINITE_DISTANCE : 0.9999f, alpha_key);
+}
+
+/// Whether it is to the target.
 FN bool is_light_occluded(vec3 origin, IN(SeenLight) light, IN(LightPoint) y, uint moment) {
     vec3 direction = light.distant ? light.direction : light.end - origin;
     float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
     if (feature(FEATURE_MOTION) && moment == MUTANT(REUSE_CURRENT_OCCLUDERS, MOMENT_PREVIOUS, NONE)) {
         return trace_any_previous(origin, direction, t_max, visibility_key(y));
     }
-    return trace_any(origin, direction, t_max, visibility_key(y));
+    return is_light_hidden(origin, light, visibility_key(y));
 }
 
 /// The target p̂ at a surface, per uv: as the lights and occluders of `moment` have it. Counts the rays it needs.

@@ -112,6 +112,14 @@ FN ReuseSurface pack_reuse_surface(vec3 position, IN(SurfaceBsdf) bsdf, vec3 wo)
     return s;
 }
 
+/// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it by the square of
+/// the ratio: a point that others chose by the wide lobe would be a firefly now and then, where sampling the material finds none.
+/// Rounding of wo moves the half vector by as much more as the view is grazing.
+FN bool wants_reuse(IN(SurfaceBsdf) bsdf, vec3 wo) {
+    vec3 normal = bent_normal(bsdf.mapped_normal, bsdf.geometric_normal, wo);
+    return bsdf.parameters.alpha >= TARGET_ALPHA_MIN && bsdf.parameters.alpha * dot(normal, wo) >= 0.5f * TARGET_ALPHA_MIN;
+}
+
 FN TargetSurface unpack_reuse_surface(IN(ReuseSurface) s) {
     TargetSurface t;
     t.position = s.position;

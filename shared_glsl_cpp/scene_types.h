@@ -161,7 +161,7 @@ struct ResamplingConstants {
     float confidence_cap;   // of the frame before, in this frame's confidences
     uint mis;               // RESAMPLING_…
     uint visibility;        // VISIBILITY_…
-    float reach;            // metres; nearer emitters are seldom picked for their brightness, were one light picked; 0: none
+    float reach;            // metres, of one candidate: power alone picks nearer emitters too seldom; 0: there are none
 };
 ASSERT_SIZE(ResamplingConstants, 40);
 

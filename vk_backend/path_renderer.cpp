@@ -1,7 +1,6 @@
 #include "path_renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 
 #include "shader_binaries.h"

@@ -63,12 +63,6 @@ ResamplingSets resampling_sets(const shared::RenderConstants& constants) {
                                  : 0U};
 }
 
-std::uint32_t resampling_bytes(const ResamplingSets& sets) {
-    return sets.first_vertices * static_cast<std::uint32_t>(sizeof(shared::FirstVertex)) +
-           sets.reservoirs * static_cast<std::uint32_t>(sizeof(shared::Reservoir)) +
-           sets.surfaces * static_cast<std::uint32_t>(sizeof(shared::ReuseSurface));
-}
-
 ResamplingSchedule::ResamplingSchedule(const shared::RenderConstants& constants)
     : constants_(constants), sets_(resampling_sets(constants)) {}
 

@@ -42,9 +42,6 @@ struct ResamplingSets {
 /// All zero for integrators that do not resample.
 ResamplingSets resampling_sets(const shared::RenderConstants& constants);
 
-/// Bytes a pixel.
-std::uint32_t resampling_bytes(const ResamplingSets& sets);
-
 class ResamplingSchedule {
 public:
     explicit ResamplingSchedule(const shared::RenderConstants& constants);

@@ -90,9 +90,10 @@ TEST_CASE("A renderer that was reconfigured has the bits of a new one, on the de
                s.width = 17;
                scene.environment = gradient_sky(1);
            }},
-          {"ris, under another sky of that size",
+          {"ris by power alone, under another sky of that size",
            [](RenderSettings& s, Scene& scene) {
                s.integrator = Integrator::ris;
+               s.resampling.bsdf_candidate = false;
                s.moves = s.first_hit_layers = false;
                scene.environment = gradient_sky(4);
            }},

@@ -90,6 +90,9 @@ TEST_CASE("Both panels keep the same reservoirs, pass by pass") {
     ChainCase alone = chain_case("ris", generated("veach-mis"));
     alone.settings.integrator = Integrator::ris;
     check_alike(alone, 2);
+    alone.name = "ris, by power alone";
+    alone.settings.resampling.bsdf_candidate = false;
+    check_alike(alone, 2);
     check_no_validation_messages();
 }
 

@@ -96,6 +96,7 @@ FN void probe_pack_surface(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put3(o, t.geometric_normal, 256.0f);
     put3(o, t.wo, 256.0f);
     put(o, t.alpha, 256.0f);
+    put_path(o, wants_reuse(probe_surface(p), p.view));
 }
 
 FN void probe_projection(IN(ProbeInput) p, INOUT(ProbeOutput) o) {

@@ -95,15 +95,31 @@ inline Scene bulb_close_by() {
     return scene;
 }
 
-/// A floor under one lamp, a little higher than it is wide.
-inline Scene lamp_overhead() {
+/// A floor under one lamp, half a metre wide.
+inline Scene lamp_overhead(float height) {
     Scene scene;
     scene.name = "lamp overhead";
     const int floor = add_material(scene, diffuse_material(0.8F));
     const int lamp = add_material(scene, make_emitter("lamp", glm::vec3(5)));
     add_object(scene, "room",
-               {horizontal_square({0, 0, 0}, 2, true, floor), horizontal_square({0, 0.55F, 0}, 0.25F, false, lamp)});
+               {horizontal_square({0, 0, 0}, 2, true, floor), horizontal_square({0, height, 0}, 0.25F, false, lamp)});
     scene.cameras.push_back(make_camera("eye", {0, 0.3, 0.5}, {0, 0, 0}, 20));
+    return scene;
+}
+
+/// A floor under a lamp and a sheet that half of the light passes, and under a sky.
+inline Scene sheet(bool glossy) {
+    Scene scene = lamp_overhead(0.4F);
+    scene.name = "sheet";
+    if (glossy) {
+        scene.materials[0] = make_material("floor", glm::vec3(0.9F), 1, 0.3F);
+    }
+    Material film = diffuse_material(0.5F);
+    film.alpha_mode = AlphaMode::blend;
+    film.base_color.a = 0.5F;
+    add_object(scene, "sheet", {horizontal_square({0, 0.2F, 0}, 1, true, add_material(scene, film))});
+    scene.environment.kind = EnvironmentKind::constant;
+    scene.environment.scale = glm::vec3(0.2F);
     return scene;
 }
 
