@@ -1,7 +1,8 @@
 // ReSTIR direct light (Bitterli et al. 2020) in its unbiased GRIS form (Lin et al. 2022), as passes over the film: `first hits` traces
-// the camera's rays; `candidates` resamples light points for what they met, in passes that pick, sample materials where that pays, and test what is seen if the target asks; `temporal` merges what the same surface had a frame before;
-// `spatial` merges what neighbours have; `shadows` asks whether the point that came out is seen; `shade` takes the first vertex's direct
-// light from it and goes on as a path. `ris` is all of them but the two that merge.
+// the camera's rays; `candidates` resamples light points for what they met, in passes that pick lights, sample materials where that
+// pays, and test what is seen if the target asks; `temporal` merges what the same surface had a frame before; `spatial` merges what
+// neighbours have; `shadows` asks whether the point that came out is seen; `shade` takes the first vertex's direct light from it and
+// goes on as a path. `ris` is all of them but the two that merge.
 //
 // Passes that trace a ray of every pixel do little else: a device that traverses in its shaders' own registers has more rays in
 // flight then.
