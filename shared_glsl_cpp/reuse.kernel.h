@@ -38,9 +38,9 @@ FN bool is_light_hidden(vec3 origin, IN(SeenLight) light, uint alpha_key) {
 
 /// Whether it is to the target.
 FN bool is_light_occluded(vec3 origin, IN(SeenLight) light, IN(LightPoint) y, uint moment) {
-    vec3 direction = light.distant ? light.direction : light.end - origin;
-    float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
     if (feature(FEATURE_MOTION) && moment == MUTANT(REUSE_CURRENT_OCCLUDERS, MOMENT_PREVIOUS, NONE)) {
+        vec3 direction = light.distant ? light.direction : light.end - origin;
+        float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
         return trace_any_previous(origin, direction, t_max, visibility_key(y));
     }
     return is_light_hidden(origin, light, visibility_key(y));
