@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <random>
 
 #include "command.h"
@@ -51,7 +52,9 @@ public:
     RunLine(const RunLine&) = delete;
     RunLine& operator=(const RunLine&) = delete;
 
+    /// From any thread.
     void show(const SideName& side, std::uint32_t run) {
+        const std::lock_guard lock(mutex_);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
         if (seconds < next_) {
             return;
@@ -64,6 +67,7 @@ public:
     }
 
 private:
+    std::mutex mutex_;
     std::uint32_t runs_;
     bool terminal_;
     bool shown_ = false;

@@ -13,7 +13,7 @@
 
 namespace diptych::app {
 
-/// Called before each run of a side.
+/// Called before each run of a side, from the thread that renders it.
 using RunHook = std::function<void(const SideName& side, std::uint32_t run)>;
 
 class VerifySide {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 
 namespace diptych::app {
 
@@ -72,14 +73,21 @@ struct Sides {
         return static_cast<std::size_t>(at - wanted.begin());
     }
 
+    /// A graphics device renders its sides while the processor renders the others.
     bool extend(std::uint32_t samples, std::uint32_t reference_samples, const std::atomic<bool>& cancel,
                 const RunHook& hook) {
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            if (!all[i].extend(wanted[i].is_reference ? reference_samples : samples, cancel, hook)) {
-                return false;
+        const auto extend_those = [&](bool on_vulkan) {
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                if ((wanted[i].name.backend == "vulkan") == on_vulkan &&
+                    !all[i].extend(wanted[i].is_reference ? reference_samples : samples, cancel, hook)) {
+                    return false;
+                }
             }
-        }
-        return true;
+            return true;
+        };
+        std::future<bool> on_vulkan = std::async(std::launch::async, extend_those, true);
+        const bool others = extend_those(false);
+        return on_vulkan.get() && others;
     }
 };
 
