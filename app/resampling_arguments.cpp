@@ -18,8 +18,12 @@ void add_resampling_options(CLI::App& command, RenderArguments& arguments) {
     const auto flag = [&](const char* name, bool& value, const char* help) {
         arguments.resampling_options.push_back(command.add_flag(name, value, help)->group("Resampling (ris, restir)"));
     };
-    add("--candidates", settings.light_candidates, "Light points a pixel and frame, picked by power")
+    add("--candidates", settings.light_candidates, "Light points a pixel and frame, picked among all lights")
         ->check(CLI::Range(1, 1024));
+    add("--near-share", settings.near_share,
+        "Of them, picked for being close too, by clusters of lights; the rest by power alone")
+        ->check(CLI::Range(0.0, 1.0))
+        ->check(finite_number());
     flag("--bsdf-candidate,!--no-bsdf-candidate", settings.bsdf_candidate,
          "One more by sampling the material, where it is glossy or lamps are close; on by default");
     flag("--temporal,!--no-temporal", settings.temporal, "restir: reuse the frame before; on by default");

@@ -1,8 +1,8 @@
-// The first vertex's initial reservoir, from light points that are picked by power (restir.kernel.h). Nothing is traced here.
+// The first vertex's initial reservoir, from light points that are picked among all lights (restir.kernel.h). Nothing is traced here.
 #ifndef CANDIDATES_KERNEL_H
 #define CANDIDATES_KERNEL_H
 
-#include "light_point.kernel.h"
+#include "light_picker.kernel.h"
 #include "path.kernel.h"
 
 /// The target without visibility, per uv.
@@ -16,19 +16,18 @@ struct BsdfCandidate {
     float reach;  // metres, along which it finds lights
 };
 
-/// Narrow lobes always, and as far as they reach: lights are seldom picked within them. Others now and then, for lamps close by: those are
-/// picked by their power and not for being near, so seldom and with a weight as large as that is seldom. That they might be found by
-/// their solid angle bounds it where they are visible and about as bright as the scene's lamps are, and short rays are cheap.
-FN BsdfCandidate bsdf_candidate(IN(SurfaceBsdf) bsdf) {
+/// Narrow lobes always, and as far as they reach: lights are seldom picked within them. Others now and then where emitters are close by: a
+/// point of those is picked for its area and not for being near, so seldom and with a weight as large as that is seldom. That it might be
+/// found by its solid angle bounds it where it is visible and about as bright as the scene's lamps are, and short rays are cheap.
+FN BsdfCandidate bsdf_candidate(IN(SurfaceBsdf) bsdf, IN(LightPicker) picker) {
     BsdfCandidate c;
     c.probability = 0.0f;
     c.reach = 0.0f;
     if (constants.resampling.bsdf_candidates != 0u) {
         bool glossy = max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f;
         bool narrow = glossy && bsdf.parameters.alpha < 0.1f && !bsdf_is_mirror(bsdf.parameters, features());
-        c.reach = narrow ? INFINITE_DISTANCE
-                         : constants.resampling.reach * inversesqrt(float(constants.resampling.light_candidates));
-        c.probability = narrow ? 1.0f : (c.reach > 0.0f ? BSDF_CANDIDATE_NEARBY : 0.0f);
+        c.reach = narrow ? INFINITE_DISTANCE : light_reach();
+        c.probability = narrow ? 1.0f : (picker.close ? BSDF_CANDIDATE_NEARBY : 0.0f);
     }
     return c;
 }
@@ -46,6 +45,7 @@ struct FirstSurface {
     vec3 wo;
     vec3 origin;  // of its rays
     ReuseSurface packed;
+    bool reuses;
     Sampler random;
 };
 
@@ -65,24 +65,41 @@ FN FirstSurface load_first_surface(uvec2 pixel, IN(ResamplingPass) pass, IN(Hit)
             first.takes_light = true;
             first.origin = offset_ray(surface.start, first.bsdf.geometric_normal, surface.magnitude);
             first.packed = pack_reuse_surface(first.origin, first.bsdf, first.wo);
+            first.reuses = wants_reuse(first.bsdf, first.wo);
         }
     }
     return first;
 }
 
-/// Light points picked by power, one kept in proportion to the target.
-FN Resampling resample_lights(IN(TargetSurface) surface, IN(Sampler) random) {
+/// The target where a candidate is made: the one that others can evaluate, or, where none will, the integrand itself.
+FN float candidate_target(IN(FirstSurface) first, IN(TargetSurface) surface, IN(SeenLight) light) {
+    if (first.reuses || !(light.measure > 0.0f)) {
+        return unoccluded_target(surface, light);
+    }
+    vec3 f = surface_bsdf_eval(first.bsdf, first.wo, light.direction, features());
+    return light.measure * luminance(f * light.radiance);
+}
+
+/// Light points, one kept in proportion to the target.
+FN Resampling resample_lights(IN(FirstSurface) first, IN(TargetSurface) surface, IN(LightPicker) picker) {
     Resampling chosen = begin_resampling();
-    uint count = constants.resampling.light_candidates;
+    uint count = constants.light_count > 0u ? constants.resampling.light_candidates : 0u;
+    ClusterSweep sweep = begin_cluster_sweep(picker, first.random);
     for (uint i = 0u; i < count; i++) {
-        uvec4 words = independent_words(random, DIMENSION_CANDIDATE + i);
-        uvec4 pick = independent_words(random, DIMENSION_CANDIDATE_PICK + i);
-        LightPointSample candidate = sample_light_point(words, uvec2(pick.y, pick.z));
+        uvec4 words = independent_words(first.random, DIMENSION_CANDIDATE + i);
+        uvec4 pick = independent_words(first.random, DIMENSION_CANDIDATE_PICK + i);
+        uint id = i < picker.by_power
+                      ? pick_light_by_power(uvec2(words.x, words.y))
+                      : pick_near_light(sweep, picker, i - picker.by_power, uvec3(words.x, words.y, pick.w));
+        vec2 u = vec2(unit_float(words.z), unit_float(words.w));
+        LightPointSample candidate = sample_light_point(id, u, uvec2(pick.y, pick.z));
         if (!(candidate.pdf > 0.0f)) {
             continue;
         }
-        float target = unoccluded_target(surface, see_light_point(candidate.point, surface.position, MOMENT_CURRENT));
-        add_candidate(chosen, candidate.point, target, target / (float(count) * candidate.pdf), unit_float(pick.x));
+        SeenLight light = see_light_point(candidate.point, surface.position, MOMENT_CURRENT);
+        float target = candidate_target(first, surface, light);
+        float density = picks_of_light(picker, id) * candidate.pdf;
+        add_candidate(chosen, candidate.point, target, target / density, unit_float(pick.x));
     }
     return chosen;
 }
@@ -94,26 +111,26 @@ FN Reservoir initial_reservoir(IN(Resampling) chosen) {
 
 /// How much of a picked point's weight, were it visible, the balance heuristic gives to sampling the material, which is done with
 /// probability q: r = q p_bsdf / (q p_bsdf + n p_pick).
-FN float bsdf_share(IN(FirstSurface) first, IN(LightPoint) picked, IN(SeenLight) light) {
-    BsdfCandidate c = bsdf_candidate(first.bsdf);
+FN float bsdf_share(IN(FirstSurface) first, IN(LightPicker) picker, IN(LightPoint) picked, IN(SeenLight) light) {
+    BsdfCandidate c = bsdf_candidate(first.bsdf, picker);
     if (!(c.probability > 0.0f) || !is_within(c, first.origin, light)) {
         return 0.0f;
     }
     float pdf_bsdf = c.probability * light.measure * surface_bsdf_pdf(first.bsdf, first.wo, light.direction, features());
-    float pdf_picked = float(constants.resampling.light_candidates) * pdf_light_point(picked);
+    float pdf_picked = picks_of_light(picker, picked.light) * pdf_light_point(picked);
     return pdf_bsdf / (pdf_bsdf + pdf_picked);
 }
 
 /// A picked point keeps 1 - V r, as the material's sampling finds only what is visible (V). Where r is small it seldom pays to look: with
 /// probability s = min(1, r / BSDF_SHARE_LEAST) the point is looked at, and keeps 1 - r / s where it is seen, which comes to the same.
 /// What is not looked at has r < BSDF_SHARE_LEAST.
-FN uint bsdf_candidate_needs(IN(FirstSurface) first, IN(Reservoir) picked) {
-    float q = bsdf_candidate(first.bsdf).probability;
+FN uint bsdf_candidate_needs(IN(FirstSurface) first, IN(LightPicker) picker, IN(Reservoir) picked) {
+    float q = bsdf_candidate(first.bsdf, picker).probability;
     uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
     uint needs = unit_float(pick.y) < q ? CANDIDATE_SAMPLES_BSDF : 0u;
     if (q > 0.0f && picked.weight > 0.0f) {
         SeenLight light = see_light_point(picked.point, first.origin, MOMENT_CURRENT);
-        float r = bsdf_share(first, picked.point, light);
+        float r = bsdf_share(first, picker, picked.point, light);
         needs |= unit_float(pick.z) * BSDF_SHARE_LEAST < r ? CANDIDATE_TESTS_PICKED : 0u;
     }
     return needs;
@@ -130,9 +147,11 @@ FN uint resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
     if (first.takes_light) {
         vertex.origin = first.origin;
         store_first_vertex(index, vertex);
-        reservoir = initial_reservoir(resample_lights(unpack_reuse_surface(first.packed), first.random));
-        needs = bsdf_candidate_needs(first, reservoir);
-        if (wants_reuse(first.bsdf, first.wo)) {
+        TargetSurface surface = unpack_reuse_surface(first.packed);
+        LightPicker picker = begin_light_picker(surface);
+        reservoir = initial_reservoir(resample_lights(first, surface, picker));
+        needs = bsdf_candidate_needs(first, picker, reservoir);
+        if (first.reuses) {
             kept = first.packed;
         }
     }

@@ -10,6 +10,7 @@
 #include "film_pixel.h"
 #include "frame.h"
 #include "hit.h"
+#include "light_clusters.h"
 #include "mis.h"
 #include "path_record.h"
 #include "ray_offset.h"

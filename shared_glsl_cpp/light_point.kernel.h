@@ -111,23 +111,22 @@ FN SeenLight see_light_point(IN(LightPoint) y, vec3 reference, uint moment) {
     return s;
 }
 
-/// A light point picked by power, and its density per uv, pick included; 0: none.
+/// A light point, and its density per uv with the pick of its light by power; 0: none.
 struct LightPointSample {
     LightPoint point;
     float pdf;
 };
 
-/// Triangles uniformly by area, the environment by its map. `words` are four independent random words, `more` two.
-FN LightPointSample sample_light_point(uvec4 words, uvec2 more) {
+/// A light by power; `words` are two. There must be lights.
+FN uint pick_light_by_power(uvec2 words) {
+    uint column = alias_column(words.x, constants.light_count);
+    return alias_pick(load_light_table(column), column, words.y);
+}
+
+/// A point of light `id`: triangles uniformly by area, the environment by its map. `more` are two random words for that.
+FN LightPointSample sample_light_point(uint id, vec2 u, uvec2 more) {
     LightPointSample s;
     s.point = no_light_point();
-    s.pdf = 0.0f;
-    if (constants.light_count == 0u) {
-        return s;
-    }
-    uint column = alias_column(words.x, constants.light_count);
-    uint id = alias_pick(load_light_table(column), column, words.y);
-    vec2 u = vec2(unit_float(words.z), unit_float(words.w));
     s.point.light = id;
     if (feature(FEATURE_EMISSIVE) && id < constants.emissive_triangle_count) {
         bool folded = u.x + u.y > 1.0f;
@@ -146,7 +145,7 @@ FN LightPointSample sample_light_point(uvec4 words, uvec2 more) {
     return s;
 }
 
-/// Density per uv with which sample_light_point finds `y`.
+/// Density per uv with which sample_light_point finds `y`, its light picked by power.
 FN float pdf_light_point(IN(LightPoint) y) {
     if (feature(FEATURE_EMISSIVE) && y.light < constants.emissive_triangle_count) {
         return 2.0f * load_emissive_triangles(y.light).pmf;

@@ -36,7 +36,7 @@ FN LightPoint light_point_of_hit(IN(Hit) hit, vec3 direction) {
 }
 
 /// What sampling the material finds, if anything, with the density of finding it so.
-FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, INOUT(uint) rays) {
+FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) picker, INOUT(uint) rays) {
     LightPointSample found;
     found.point = no_light_point();
     found.pdf = 0.0f;
@@ -47,7 +47,7 @@ FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, INOUT(uint) rays)
         return found;
     }
     rays += 1u;
-    BsdfCandidate c = bsdf_candidate(first.bsdf);
+    BsdfCandidate c = bsdf_candidate(first.bsdf, picker);
     Hit hit = trace_within(first.origin, next.direction, c.reach, ray_alpha_key(first.random, 0x40000000u));
     if (hit.instance == NONE && c.reach < INFINITE_DISTANCE) {
         return found;
@@ -67,6 +67,7 @@ FN void add_bsdf_candidate(uvec2 pixel, uint needs, IN(ResamplingPass) pass) {
     FirstVertex vertex = load_first_vertex(index);
     FirstSurface first = load_first_surface(pixel, pass, vertex.hit);
     TargetSurface surface = unpack_reuse_surface(first.packed);
+    LightPicker picker = begin_light_picker(surface);
     Reservoir picked = load_reservoir(pass.reservoirs, index);
     Resampling chosen = begin_resampling();
     if (picked.weight > 0.0f) {
@@ -77,17 +78,18 @@ FN void add_bsdf_candidate(uvec2 pixel, uint needs, IN(ResamplingPass) pass) {
             // Past stochastic alpha by a throw of its own: the target's is for the point, and would be asked twice.
             uint key = MUTANT(CANDIDATE_ALPHA_SHARED, ray_alpha_key(first.random, 0x40000001u), visibility_key(picked.point));
             bool seen = MUTANT(BSDF_CANDIDATE_BLIND, !is_light_hidden(first.origin, light, key), true);
-            float share = bsdf_share(first, picked.point, light);
+            float share = bsdf_share(first, picker, picked.point, light);
             kept -= seen ? MUTANT(CANDIDATE_SHARE_UNDIVIDED, max(share, BSDF_SHARE_LEAST), share) : 0.0f;
         }
-        float target = unoccluded_target(surface, light);
+        float target = candidate_target(first, surface, light);
         add_candidate(chosen, picked.point, target, kept * target * picked.weight, 0.0f);
     }
     if ((needs & CANDIDATE_SAMPLES_BSDF) != 0u) {
-        LightPointSample found = find_light_by_bsdf(first, vertex.rays);
+        LightPointSample found = find_light_by_bsdf(first, picker, vertex.rays);
         if (found.pdf > 0.0f) {
-            float target = unoccluded_target(surface, see_light_point(found.point, first.origin, MOMENT_CURRENT));
-            float pdf_picked = float(constants.resampling.light_candidates) * pdf_light_point(found.point);
+            SeenLight light = see_light_point(found.point, first.origin, MOMENT_CURRENT);
+            float target = candidate_target(first, surface, light);
+            float pdf_picked = picks_of_light(picker, found.point.light) * pdf_light_point(found.point);
             uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
             add_candidate(chosen, found.point, target, target / (found.pdf + pdf_picked), unit_float(pick.x));
         }

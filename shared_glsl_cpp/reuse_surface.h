@@ -16,6 +16,7 @@ SHARED_BEGIN
 CONST float TARGET_COS_MIN = 1.0e-3f;        // floor of cosines to the shading normal; octahedral rounding is below 1e-4
 CONST float TARGET_COS_MIN_MAPPED = 0.1f;    // under a normal map light also comes by the tangent facet
 CONST float TARGET_ALPHA_MIN = 0.001f;       // narrower lobes are widened: octahedral rounding moves their peaks
+CONST float TARGET_ALPHA_MIN_MAPPED = 0.1f;  // the tangent facet's lobes, which the target lacks, are no wider
 CONST uint REUSE_SURFACE_VALID = 1u;
 CONST uint REUSE_SURFACE_MAPPED = 2u;
 
@@ -113,11 +114,13 @@ FN ReuseSurface pack_reuse_surface(vec3 position, IN(SurfaceBsdf) bsdf, vec3 wo)
 }
 
 /// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it by the square of
-/// the ratio: a point that others chose by the wide lobe would be a firefly now and then, where sampling the material finds none.
-/// Rounding of wo moves the half vector by as much more as the view is grazing.
+/// the ratio: a point that others chose by the wide lobe would be a firefly now and then, where sampling the material finds none. So it
+/// would where light comes by a narrow lobe of a normal map's tangent facet. Rounding of wo moves the half vector by as much more as the
+/// view is grazing.
 FN bool wants_reuse(IN(SurfaceBsdf) bsdf, vec3 wo) {
     vec3 normal = bent_normal(bsdf.mapped_normal, bsdf.geometric_normal, wo);
-    return bsdf.parameters.alpha >= TARGET_ALPHA_MIN && bsdf.parameters.alpha * dot(normal, wo) >= 0.5f * TARGET_ALPHA_MIN;
+    float least = bsdf.mapped != 0u ? TARGET_ALPHA_MIN_MAPPED : TARGET_ALPHA_MIN;
+    return bsdf.parameters.alpha >= least && bsdf.parameters.alpha * dot(normal, wo) >= 0.5f * TARGET_ALPHA_MIN;
 }
 
 FN TargetSurface unpack_reuse_surface(IN(ReuseSurface) s) {

@@ -23,6 +23,8 @@
     X(EmissiveTriangle, emissive_triangles) \
     X(PunctualLight, punctual_lights)       \
     X(AliasEntry, light_table)              \
+    X(LightCluster, light_clusters)         \
+    X(ClusterPick, cluster_picks)           \
     X(vec4, environment_texels)             \
     X(AliasEntry, environment_table)        \
     X(Instance, previous_instances)         \
@@ -36,6 +38,8 @@
     X(EmissiveTriangle, emissive_triangles) \
     X(PunctualLight, punctual_lights)       \
     X(AliasEntry, light_table)              \
+    X(LightCluster, light_clusters)         \
+    X(ClusterPick, cluster_picks)           \
     X(Instance, previous_instances)         \
     X(EmissiveTriangle, previous_emissive_triangles) \
     X(PunctualLight, previous_punctual_lights)

@@ -81,6 +81,7 @@ ASSERT_SIZE(TextureSlot, 40);
 
 CONST uint EMITTER_TWO_SIDED = 1u;
 CONST uint EMITTER_VARIES = 2u;    // textured or not opaque: its radiance depends on the place, and the material knows it
+CONST uint EMITTER_PART_SHIFT = 8u;  // above: its part of a cluster + 1, or 0
 
 /// A light that a ray can hit: x = vertex_0 + b_1 edge_1 + b_2 edge_2, in world space. Lights 0 .. emissive_triangle_count-1.
 struct EmissiveTriangle {
@@ -110,8 +111,9 @@ struct PunctualLight {
     vec3 intensity;  // W/sr; directional: W/m^2
     float cone_scale;   // spot: falloff = saturate(cos * cone_scale + cone_offset)^2
     float cone_offset;
+    uint part;          // of a cluster; NONE: of none
 };
-ASSERT_SIZE(PunctualLight, 52);
+ASSERT_SIZE(PunctualLight, 56);
 
 /// One column of an alias table (Walker 1977; Vose 1991): keep the column with `probability`, else take `alias`.
 struct AliasEntry {
@@ -119,6 +121,28 @@ struct AliasEntry {
     uint alias;
 };
 ASSERT_SIZE(AliasEntry, 8);
+
+CONST uint PARTS_PER_CLUSTER = 16u;
+
+/// Lights that stand together (light_clusters.h): a cluster, or a part of one. All clusters come first; then their parts, of cluster k
+/// from light_cluster_count + k * PARTS_PER_CLUSTER on, those of pmf 0 where there are fewer.
+struct LightCluster {
+    vec3 center;   // by pmf
+    float spread;  // m²: the mean square of the lights' distance from it
+    float pmf;     // of picking one of them by power
+    uint first;    // into cluster_picks
+    uint count;
+    float radius;  // m: the root of spread
+};
+ASSERT_SIZE(LightCluster, 32);
+
+/// A column of the alias table by which a cluster's lights are picked: keep `light` with `probability`, else take `alias`, both light ids.
+struct ClusterPick {
+    float probability;
+    uint light;
+    uint alias;
+};
+ASSERT_SIZE(ClusterPick, 12);
 
 CONST uint CAMERA_PERSPECTIVE = 0u;
 CONST uint CAMERA_ORTHOGRAPHIC = 1u;
@@ -152,7 +176,8 @@ ASSERT_SIZE(Environment, 36);
 
 /// How reservoirs are made and reused (restir.kernel.h).
 struct ResamplingConstants {
-    uint light_candidates;  // a pixel and frame, by power
+    uint light_candidates;  // a pixel and frame, picked among all lights
+    uint near_candidates;   // of these, picked from clusters by their distance; at least one is picked by power alone
     uint bsdf_candidates;   // 0 or 1: also by sampling the material
     uint temporal;          // 1: reuse the frame before
     uint spatial_passes;
@@ -163,7 +188,7 @@ struct ResamplingConstants {
     uint visibility;        // VISIBILITY_…
     float reach;            // metres, of one candidate: power alone picks nearer emitters too seldom; 0: there are none
 };
-ASSERT_SIZE(ResamplingConstants, 40);
+ASSERT_SIZE(ResamplingConstants, 44);
 
 CONST uint RESAMPLING_MAX_NEIGHBORS = 8u;
 CONST uint RESAMPLING_PAIRWISE = 0u;            // with defence, O(N)
@@ -193,11 +218,12 @@ struct RenderConstants {
     uint light_count;
     uint emissive_triangle_count;
     uint punctual_light_count;
+    uint light_cluster_count;
     uint atlas_tile;    // 0, or the side of square copies of the view, each isolated from the others
     Camera previous_camera;
     ResamplingConstants resampling;
 };
-ASSERT_SIZE(RenderConstants, 248);
+ASSERT_SIZE(RenderConstants, 256);
 
 CONST uint INTEGRATOR_BRDF = 0u;
 CONST uint INTEGRATOR_DIRECT = 1u;

@@ -7,8 +7,8 @@ namespace diptych::app {
 namespace {
 
 auto tie_resampling(const ResamplingSettings& r) {
-    return std::tie(r.light_candidates, r.bsdf_candidate, r.temporal, r.spatial_passes, r.neighbors, r.radius,
-                    r.confidence_cap, r.mis, r.visibility);
+    return std::tie(r.light_candidates, r.near_share, r.bsdf_candidate, r.temporal, r.spatial_passes, r.neighbors,
+                    r.radius, r.confidence_cap, r.mis, r.visibility);
 }
 
 auto tie_settings(const RenderSettings& s) {

@@ -112,6 +112,9 @@ void draw_camera(const Theme& theme, const InterfaceFacts& facts, ViewState& sta
 
 void draw_resampling(const Theme& theme, ResamplingSettings& resampling, bool reuses) {
     slider(theme, "Light draws", resampling.light_candidates, 0, 64, "Candidates from the lights, a pixel and frame");
+    double near = static_cast<double>(resampling.near_share);
+    slider(theme, "Near share", near, 0, 1, "%.2f", "Of them, picked by distance too");
+    resampling.near_share = static_cast<float>(near);
     toggle(theme, "BSDF draw", resampling.bsdf_candidate, "One more candidate, from the material");
     choice(theme, "MIS", {"pairwise", "balance", "1/Z", "1/M, biased"}, resampling.mis,
            "Weights between what is resampled");

@@ -170,6 +170,7 @@ void place_punctual_lights(const Scene& scene, PackedScene& packed) {
         out.position = glm::dvec3(light.light_to_world[3]) - packed.origin;
         out.direction = -glm::normalize(glm::dvec3(light.light_to_world[2]));
         out.intensity = light.intensity;
+        out.part = shared::NONE;
         const double strength = luminance(glm::dvec3(light.intensity));
         switch (light.type) {
         case PunctualType::point:
@@ -220,6 +221,7 @@ void weigh_lights(PackedScene& packed) {
     constants.light_count = any ? static_cast<std::uint32_t>(packed.light_table.size()) : 0;
     constants.emissive_triangle_count = static_cast<std::uint32_t>(packed.emissive_triangles.size());
     constants.punctual_light_count = static_cast<std::uint32_t>(packed.punctual_lights.size());
+    weigh_clusters(packed);
     find_reach(packed);
 }
 
@@ -237,6 +239,11 @@ void pack_lights(const Scene& scene, PackedScene& packed) {
     place_punctual_lights(scene, packed);
     require_indexable(scene, packed.light_powers.size() + 1, "lights");
     weigh_lights(packed);
+    if (packed.constants.integrator == shared::INTEGRATOR_RIS ||
+        packed.constants.integrator == shared::INTEGRATOR_RESTIR) {
+        cluster_lights(packed);
+        weigh_clusters(packed);
+    }
 }
 
 }  // namespace diptych

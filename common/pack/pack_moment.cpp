@@ -101,6 +101,7 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     place_punctual_lights(scene, packed);
     for (std::size_t i = 0; i < before.size(); ++i) {
         packed.punctual_lights[i].pmf = before[i].pmf;
+        packed.punctual_lights[i].part = before[i].part;
     }
     const double environment_luminance = packed.environment_luminance;
     place_environment(scene, packed);
@@ -112,6 +113,8 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     rename_if(weigh, revisions.emissive_triangles);
     rename_if(weigh, revisions.punctual_lights);
     rename_if(weigh, revisions.light_table);
+    rename_if(weigh, revisions.light_clusters);
+    rename_if(weigh, revisions.cluster_picks);
     pack_camera(scene, settings, packed);
 }
 

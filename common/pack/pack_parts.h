@@ -42,6 +42,12 @@ void place_punctual_lights(const Scene& scene, PackedScene& packed);
 /// Picking probabilities and the light table, from the lights' powers.
 void weigh_lights(PackedScene& packed);
 
+/// Which lights stand together, where they are now; for integrators that resample. None where all stand in one place.
+void cluster_lights(PackedScene& packed);
+
+/// What the clusters are worth and how their lights are picked, from the probabilities that weigh_lights gives.
+void weigh_clusters(PackedScene& packed);
+
 /// What moves becomes the moment before, where reuse will look back to it; until then that is this one.
 void keep_previous(PackedScene& packed);
 

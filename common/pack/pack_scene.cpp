@@ -43,6 +43,10 @@ void pack_settings(const RenderSettings& settings, shared::RenderConstants& c) {
     c.atlas_tile = settings.atlas_tile;
     const ResamplingSettings& from = settings.resampling;
     c.resampling.light_candidates = from.light_candidates;
+    // One pick at least goes to what has no place.
+    c.resampling.near_candidates =
+        std::min(static_cast<std::uint32_t>(from.near_share * static_cast<float>(from.light_candidates)),
+                 std::max(from.light_candidates, 1U) - 1);
     c.resampling.bsdf_candidates = from.bsdf_candidate ? 1 : 0;
     c.resampling.temporal = from.temporal ? 1 : 0;
     c.resampling.spatial_passes = from.spatial_passes;
@@ -130,6 +134,20 @@ void forget_previous(PackedScene& packed) {
     packed.revisions.previous_punctual_lights = new_revision();
 }
 
+/// Clusters where they are wanted, and else none.
+void recluster(PackedScene& packed, bool wanted) {
+    packed.part_of_light.clear();
+    packed.light_clusters.clear();
+    if (wanted) {
+        cluster_lights(packed);
+    }
+    weigh_clusters(packed);
+    packed.revisions.emissive_triangles = new_revision();
+    packed.revisions.punctual_lights = new_revision();
+    packed.revisions.light_clusters = new_revision();
+    packed.revisions.cluster_picks = new_revision();
+}
+
 }  // namespace
 
 bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
@@ -148,6 +166,9 @@ bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedS
     packed.features = features;
     packed.keeps_previous = settings.moves;
     pack_settings(settings, packed.constants);
+    if (resamples(settings.integrator) == packed.part_of_light.empty()) {
+        recluster(packed, resamples(settings.integrator));
+    }
     forget_previous(packed);
     keep_previous(packed);
     return true;

@@ -64,6 +64,7 @@ struct PackedScene : shared::SceneBuffers {
     std::vector<std::uint32_t> scene_instances;  // parallel to instances: index into Scene::instances
     std::vector<double> emitter_means;           // parallel to emissive_triangles: mean luminance of what they emit
     std::vector<double> light_powers;            // what light_table was built from
+    std::vector<std::uint32_t> part_of_light;    // parallel to light_powers but for the environment; empty: no clusters
     bool moves = false;                          // light_table keeps its size even where all is dark
 };
 
@@ -96,7 +97,7 @@ void pack_view(const Scene& scene, const RenderSettings& settings, PackedScene& 
 
 /// Goes on with other settings where no array's size or order depends on them: size, depth, sampler, weights, seed,
 /// most integrators. The scene may stand at another moment, which becomes the moment before as well. As pack_scene of
-/// it would have it, but for origin and radius, which stay. False, and nothing is done, where pack_scene must run anew.
+/// it would have it, but for origin, radius and clusters of lights, which stay. False, and nothing is done, where pack_scene must run anew.
 bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 }  // namespace diptych

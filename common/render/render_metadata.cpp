@@ -65,6 +65,7 @@ void add_viewpoint_options(std::string& command, const RenderRequest& request) {
 void add_resampling_options(std::string& command, const RenderSettings& settings) {
     const ResamplingSettings& resampling = settings.resampling;
     add_option(command, "--candidates", resampling.light_candidates);
+    add_option(command, "--near-share", resampling.near_share);
     command += resampling.bsdf_candidate ? " --bsdf-candidate" : " --no-bsdf-candidate";
     command += resampling.temporal ? " --temporal" : " --no-temporal";
     add_option(command, "--spatial-passes", resampling.spatial_passes);

@@ -87,8 +87,12 @@ std::map<std::string, Offsets> cpp_offsets() {
         {"PunctualLight",
          {FIELD(PunctualLight, position), FIELD(PunctualLight, type), FIELD(PunctualLight, direction),
           FIELD(PunctualLight, pmf), FIELD(PunctualLight, intensity), FIELD(PunctualLight, cone_scale),
-          FIELD(PunctualLight, cone_offset)}},
+          FIELD(PunctualLight, cone_offset), FIELD(PunctualLight, part)}},
         {"AliasEntry", {FIELD(AliasEntry, probability), FIELD(AliasEntry, alias)}},
+        {"LightCluster",
+         {FIELD(LightCluster, center), FIELD(LightCluster, spread), FIELD(LightCluster, pmf),
+          FIELD(LightCluster, first), FIELD(LightCluster, count), FIELD(LightCluster, radius)}},
+        {"ClusterPick", {FIELD(ClusterPick, probability), FIELD(ClusterPick, light), FIELD(ClusterPick, alias)}},
         {"Camera",
          {FIELD(Camera, origin), FIELD(Camera, kind), FIELD(Camera, right), FIELD(Camera, lens_radius),
           FIELD(Camera, up), FIELD(Camera, focus_distance), FIELD(Camera, forward)}},
@@ -101,14 +105,14 @@ std::map<std::string, Offsets> cpp_offsets() {
           FIELD(RenderConstants, max_depth), FIELD(RenderConstants, integrator), FIELD(RenderConstants, brdf),
           FIELD(RenderConstants, mis), FIELD(RenderConstants, light_count),
           FIELD(RenderConstants, emissive_triangle_count), FIELD(RenderConstants, punctual_light_count),
-          FIELD(RenderConstants, atlas_tile), FIELD(RenderConstants, previous_camera),
-          FIELD(RenderConstants, resampling)}},
+          FIELD(RenderConstants, light_cluster_count), FIELD(RenderConstants, atlas_tile),
+          FIELD(RenderConstants, previous_camera), FIELD(RenderConstants, resampling)}},
         {"ResamplingConstants",
-         {FIELD(ResamplingConstants, light_candidates), FIELD(ResamplingConstants, bsdf_candidates),
-          FIELD(ResamplingConstants, temporal), FIELD(ResamplingConstants, spatial_passes),
-          FIELD(ResamplingConstants, neighbors), FIELD(ResamplingConstants, radius),
-          FIELD(ResamplingConstants, confidence_cap), FIELD(ResamplingConstants, mis),
-          FIELD(ResamplingConstants, visibility), FIELD(ResamplingConstants, reach)}},
+         {FIELD(ResamplingConstants, light_candidates), FIELD(ResamplingConstants, near_candidates),
+          FIELD(ResamplingConstants, bsdf_candidates), FIELD(ResamplingConstants, temporal),
+          FIELD(ResamplingConstants, spatial_passes), FIELD(ResamplingConstants, neighbors),
+          FIELD(ResamplingConstants, radius), FIELD(ResamplingConstants, confidence_cap),
+          FIELD(ResamplingConstants, mis), FIELD(ResamplingConstants, visibility), FIELD(ResamplingConstants, reach)}},
         {"ResamplingPass",
          {FIELD(ResamplingPass, frame), FIELD(ResamplingPass, reservoirs), FIELD(ResamplingPass, other_reservoirs),
           FIELD(ResamplingPass, surfaces), FIELD(ResamplingPass, has_history), FIELD(ResamplingPass, iteration)}},
@@ -220,6 +224,8 @@ TEST_CASE("Arrays of shared structs have the stride of their size") {
     CHECK_STRIDE(EmissiveTriangle);
     CHECK_STRIDE(PunctualLight);
     CHECK_STRIDE(AliasEntry);
+    CHECK_STRIDE(LightCluster);
+    CHECK_STRIDE(ClusterPick);
     CHECK_STRIDE(FilmPixel);
     CHECK_STRIDE(FilmMoments);
     CHECK_STRIDE(FilmFirstHit);

@@ -124,6 +124,22 @@ FN void probe_independent_words(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_bits4(o, independent_words(random, p.set.x));
 }
 
+FN void probe_light_cluster(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    LightCluster cluster;
+    cluster.center = p.vertex;
+    cluster.spread = 1.0e-6f + p.u.x * p.u.x;
+    cluster.radius = 1.0e-3f + p.u.x;
+    cluster.pmf = p.u.y;
+    cluster.first = 0u;
+    cluster.count = 1u;
+    put_bits(o, part_of_flags(p.words.x));
+    put_path(o, is_near_cluster(cluster, p.edge_1, p.u.z));
+    // cos/r², whose numerator may cancel.
+    vec3 d = p.vertex - p.edge_1;
+    float squared = dot(d, d) + cluster.spread;
+    put(o, cluster_falloff(cluster, p.edge_1, p.axis), (length(d) + cluster.radius) * inversesqrt(squared) / squared);
+}
+
 #define RESAMPLING_PROBES(X)                                                                                           \
     X(reservoir, 8, 50, "a sum, a division, a product")                                                                \
     X(pairwise_shares, 24, 0, "three divisions")                                                                       \
@@ -133,7 +149,8 @@ FN void probe_independent_words(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     X(similar, 8, 500, "nothing but its answer")                                                                       \
     X(pack_surface, 8, 100, "a coordinate may round to the next step")                                                 \
     X(projection, 16, 50, "dot products and three divisions")                                                          \
-    X(independent_words, 0, 0, "integers")
+    X(independent_words, 0, 0, "integers")                                                                             \
+    X(light_cluster, 32, 50, "dot products, an inversesqrt and its cube")
 
 SHARED_END
 

@@ -61,18 +61,26 @@ TEST_CASE("ris is unbiased on glossy surfaces, where material sampling finds the
     }
 }
 
-TEST_CASE("A bulb close by is found by its solid angle, without bias and with less noise than by its power") {
+TEST_CASE(
+    "A bulb close by is found by its solid angle or its distance, without bias and with less noise than by power") {
     ChainCase c = chain_case("bulb close by", bulb_close_by());
     check_frames(c, {8}, 7, {16, 24});
-
     c.settings.integrator = Integrator::ris;
-    const auto spread = [&](bool by_material) {
+    check_frames(c, {0}, 7, {16, 24});
+
+    const auto spread = [&](bool by_material, float near_share) {
         c.settings.resampling.bsdf_candidate = by_material;
+        c.settings.resampling.near_share = near_share;
         const std::vector<double> means = run_chains(c, {}, {0}, on_cpu, 3)[0];
         return difference(means, means).half_width;
     };
-    std::printf("bulb close by, ris: +- %.2f %%, without material sampling %.2f %%\n", spread(true), spread(false));
-    CHECK(spread(true) < 0.5 * spread(false));
+    const double by_power = spread(false, 0);
+    const double by_material = spread(true, 0);
+    const double by_distance = spread(false, 0.5F);
+    std::printf("bulb close by, ris: +- %.2f %%, by material sampling %.2f %%, by distance %.2f %%\n", by_power,
+                by_material, by_distance);
+    CHECK(by_material < 0.5 * by_power);
+    CHECK(by_distance < 0.5 * by_power);
 }
 
 TEST_CASE("A lamp within reach is shared with its solid angle, one beyond is left to its power") {

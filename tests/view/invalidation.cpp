@@ -70,6 +70,7 @@ TEST_CASE("What is packed or compiled otherwise invalidates the settings", "[vie
                               [](RenderSettings& s) { s.first_hit_layers = true; },
                               [](RenderSettings& s) { s.generic = true; },
                               [](RenderSettings& s) { s.resampling.light_candidates = 9; },
+                              [](RenderSettings& s) { s.resampling.near_share = 0.25F; },
                               [](RenderSettings& s) { s.resampling.bsdf_candidate = false; },
                               [](RenderSettings& s) { s.resampling.temporal = false; },
                               [](RenderSettings& s) { s.resampling.spatial_passes = 2; },

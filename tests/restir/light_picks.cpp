@@ -1,0 +1,73 @@
+// Picks of lights follow the density that candidates are weighed by.
+#include "backend/cpu_kernel.h"
+#include "chain_cases.h"
+#include "stats/chi_square.h"
+
+namespace diptych::tests {
+namespace {
+
+/// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
+struct Tracer : PlainTracer {};
+using Kernel = shared::CpuKernel<Tracer, ~0U>;
+
+shared::TargetSurface surface_at(const glm::vec3& position, const glm::vec3& normal) {
+    shared::TargetSurface s{};
+    s.position = position;
+    s.normal = normal;
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("Lights are picked as often as their density says, near and far") {
+    Scene scene = generated("many-lights", 300);
+    PunctualLight point;
+    point.light_to_world[3] = {0.5, 1, 0.5, 1};
+    point.intensity = glm::vec3(1);
+    PunctualLight sun;
+    sun.type = PunctualType::directional;
+    scene.lights = {point, sun};
+    RenderSettings settings;
+    settings.width = 8;
+    settings.height = 8;
+    settings.integrator = Integrator::ris;
+    const PackedScene packed = pack_scene(scene, settings);
+    const EmbreeScene embree(packed);
+    Kernel kernel{packed, packed.constants, {{embree}}};
+    const std::size_t lights = packed.light_table.size();
+    REQUIRE(packed.constants.resampling.near_candidates == 4);
+    const glm::vec3 beside = packed.emissive_triangles[7].vertex_0;
+    for (const glm::vec3& position : {beside, beside + glm::vec3(0.1F, -0.3F, 0.2F), glm::vec3(0, 500, 0)}) {
+        const glm::vec3 normal(0, position.y > 100 ? -1 : 1, 0);
+        const auto picker = kernel.begin_light_picker(surface_at(position, normal));
+        REQUIRE(picker.near == 4);
+        constexpr std::uint32_t samples = 100000;
+        std::vector<double> observed(lights, 0);
+        for (std::uint32_t i = 0; i < samples; ++i) {
+            const shared::Sampler random = shared::make_sampler({3, 5}, i, 1, shared::SAMPLER_INDEPENDENT, samples);
+            auto sweep = kernel.begin_cluster_sweep(picker, random);
+            for (std::uint32_t step = 0; step < picker.near; ++step) {
+                const glm::uvec4 w = shared::independent_words(random, shared::DIMENSION_CANDIDATE + step);
+                observed[kernel.pick_near_light(sweep, picker, step, {w.x, w.y, w.z})] += 1;
+            }
+        }
+        std::vector<double> expected(lights, 0);
+        double sum = 0;
+        for (std::uint32_t id = 0; id < lights; ++id) {
+            const std::size_t emitters = packed.emissive_triangles.size();
+            const float pmf =
+                id < emitters ? packed.emissive_triangles[id].pmf : packed.punctual_lights[id - emitters].pmf;
+            const double near = static_cast<double>(kernel.picks_of_light(picker, id)) - picker.by_power;
+            expected[id] = samples * near * static_cast<double>(pmf);
+            sum += expected[id];
+        }
+        CHECK(sum == Approx(4.0 * samples).epsilon(1e-4));
+        // Systematic steps pick no light more evenly than that, and none less evenly.
+        const ChiSquareFit fit = chi_square_fit(observed, expected);
+        INFO(fit.statistic << " of " << fit.freedom);
+        CHECK(fit.freedom > 2);
+        CHECK(chi_square_deviate(fit) < deviate_limit);
+    }
+}
+
+}  // namespace diptych::tests
