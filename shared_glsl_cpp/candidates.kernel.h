@@ -73,7 +73,10 @@ FN FirstSurface load_first_surface(uvec2 pixel, IN(ResamplingPass) pass, IN(Hit)
 
 /// The target where a candidate is made: the one that others can evaluate, or, where none will, the integrand itself.
 FN float candidate_target(IN(FirstSurface) first, IN(TargetSurface) surface, IN(SeenLight) light) {
-    if (first.reuses || !(light.measure > 0.0f)) {
+    if (!(light.measure > 0.0f)) {
+        return 0.0f;
+    }
+    if (first.reuses) {
         return unoccluded_target(surface, light);
     }
     vec3 f = surface_bsdf_eval(first.bsdf, first.wo, light.direction, features());
@@ -88,18 +91,20 @@ FN Resampling resample_lights(IN(FirstSurface) first, IN(TargetSurface) surface,
     for (uint i = 0u; i < count; i++) {
         uvec4 words = independent_words(first.random, DIMENSION_CANDIDATE + i);
         uvec4 pick = independent_words(first.random, DIMENSION_CANDIDATE_PICK + i);
-        uint id = i < picker.by_power
-                      ? pick_light_by_power(uvec2(words.x, words.y))
-                      : pick_near_light(sweep, picker, i - picker.by_power, uvec3(words.x, words.y, pick.w));
+        PickedLight picked;
+        if (i < picker.by_power) {
+            picked = pick_light_by_power(picker, uvec2(words.x, words.y));
+        } else {
+            picked = pick_near_light(sweep, picker, i - picker.by_power, uvec3(words.x, words.y, pick.w));
+        }
         vec2 u = vec2(unit_float(words.z), unit_float(words.w));
-        LightPointSample candidate = sample_light_point(id, u, uvec2(pick.y, pick.z));
+        LightPointSample candidate = sample_light_point(picked.id, u, uvec2(pick.y, pick.z));
         if (!(candidate.pdf > 0.0f)) {
             continue;
         }
         SeenLight light = see_light_point(candidate.point, surface.position, MOMENT_CURRENT);
         float target = candidate_target(first, surface, light);
-        float density = picks_of_light(picker, id) * candidate.pdf;
-        add_candidate(chosen, candidate.point, target, target / density, unit_float(pick.x));
+        add_candidate(chosen, candidate.point, target, target / (picked.picks * candidate.pdf), unit_float(pick.x));
     }
     return chosen;
 }

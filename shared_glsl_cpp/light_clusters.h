@@ -8,17 +8,19 @@
 SHARED_BEGIN
 
 /// About what a surface gets from a cluster of unit power: cos/r² with the mean square r² = |x - c|² + E|y - c|² of the distance to its
-/// lights, and the cosine that a light has which stands a radius above the centre.
+/// lights, and the cosine of the highest of them.
 FN float cluster_falloff(IN(LightCluster) cluster, vec3 position, vec3 normal) {
     vec3 d = cluster.center - position;
-    float inverse = inversesqrt(dot(d, d) + cluster.spread);
-    return max(dot(d, normal) + cluster.radius, 0.0f) * inverse * inverse * inverse;
+    PRECISE float inverse = inversesqrt(dot(d, d) + cluster.spread);
+    PRECISE float falloff = max(dot(d, normal) + cluster.radius, 0.0f) * inverse * inverse * inverse;
+    return falloff;
 }
 
-/// Whether a place is so near, within two radii, that it matters which of the lights are nearest.
+/// Whether a place is so near that it matters which of the lights are nearest: within two radii, or `margin` metres.
 FN bool is_near_cluster(IN(LightCluster) cluster, vec3 position, float margin) {
     vec3 d = cluster.center - position;
-    return dot(d, d) < 4.0f * cluster.spread + margin * margin;
+    PRECISE float reach = 4.0f * cluster.radius * cluster.radius + margin * margin;
+    return dot(d, d) < reach;
 }
 
 /// The part of a cluster that a triangle of such flags is in, NONE where there are none.

@@ -1,6 +1,6 @@
-// Picks light points for one place: some by power, as paths do; the others from clusters of lights (light_clusters.h), by power over the
-// square of the distance, a cluster close by part by part, so that a lamp close by is found though it is a millionth of the scene's power. Both are weighed by the density of
-// all picks together (the balance heuristic, Veach and Guibas 1995).
+// Picks light points for one place: some by power, as paths do; the others from clusters of lights (light_clusters.h), by power times the
+// cosine over the square of the distance, and near a cluster part by part, so that a lamp close by is found though it is a millionth of
+// the scene's power. Both are weighed by the density of all picks together (the balance heuristic, Veach and Guibas 1995).
 #ifndef LIGHT_PICKER_KERNEL_H
 #define LIGHT_PICKER_KERNEL_H
 
@@ -46,20 +46,30 @@ FN LightPicker begin_light_picker(IN(TargetSurface) surface) {
     return p;
 }
 
-FN LightCluster load_cluster_part(uint part) { return load_light_clusters(constants.light_cluster_count + part); }
+FN LightCluster load_cluster_part(uint cluster, uint i) {
+    return load_light_clusters(constants.light_cluster_count + cluster * PARTS_PER_CLUSTER + i);
+}
 
-/// The sum of the weights of a cluster's parts; 0: there all lights are picked by power.
+/// The sum of the weights of a cluster's parts; 0: there its parts are picked by power.
 FN float parts_sum(IN(LightPicker) p, uint cluster, IN(LightCluster) whole) {
     float sum = 0.0f;
-    if (is_near_cluster(whole, p.position, 0.0f)) {
-        for (uint i = 0u; i < PARTS_PER_CLUSTER; i++) {
-            sum += cluster_weight(p, load_cluster_part(cluster * PARTS_PER_CLUSTER + i));
+    if (whole.count > 1u && is_near_cluster(whole, p.position, 0.0f)) {
+        for (uint i = 0u; i < whole.count; i++) {
+            sum += cluster_weight(p, load_cluster_part(cluster, i));
         }
     }
     return sum < INFINITE_DISTANCE ? sum : 0.0f;
 }
 
-/// The density of all picks together where that of one pick by power is 1.
+/// The density of all picks together where that of one pick by power is 1, for the lights of a part. `weight` is the cluster's, `parts`
+/// what parts_sum says of it.
+FN float picks_of_part(IN(LightPicker) p, IN(LightCluster) whole, float weight, IN(LightCluster) part, float parts) {
+    float of_part = parts > 0.0f ? cluster_falloff(part, p.position, p.normal) / parts : 1.0f / whole.pmf;
+    float near = float(p.near) * (weight / p.sum) * of_part;
+    return float(p.by_power) + MUTANT(NEAR_PICKS_UNWEIGHED, near, float(p.near));
+}
+
+/// The same for any light.
 FN float picks_of_light(IN(LightPicker) p, uint id) {
     uint part = NONE;
     if (p.near > 0u && feature(FEATURE_EMISSIVE) && id < constants.emissive_triangle_count) {
@@ -73,21 +83,22 @@ FN float picks_of_light(IN(LightPicker) p, uint id) {
     }
     uint cluster = part / PARTS_PER_CLUSTER;
     LightCluster whole = load_light_clusters(cluster);
-    float falloff = cluster_falloff(whole, p.position, p.normal);
-    float parts = parts_sum(p, cluster, whole);
-    if (parts > 0.0f) {
-        falloff *= whole.pmf / parts * cluster_falloff(load_cluster_part(part), p.position, p.normal);
+    float weight = cluster_weight(p, whole);
+    if (!(weight > 0.0f)) {
+        return float(p.by_power);
     }
-    float near = float(p.near) * falloff / p.sum;
-    return float(p.by_power) + MUTANT(NEAR_PICKS_UNWEIGHED, near, float(p.near));
+    LightCluster own = load_cluster_part(cluster, part % PARTS_PER_CLUSTER);
+    return picks_of_part(p, whole, weight, own, parts_sum(p, cluster, whole));
 }
 
 /// Picks from clusters go through them in one sweep, as they are at equal steps of the sum.
 struct ClusterSweep {
-    float offset;   // of the steps, [0, 1)
-    float reached;  // the sum before `cluster`
-    uint cluster;
-    LightCluster current;
+    float offset;        // of the steps, [0, 1)
+    float reached;       // the sum before `next`
+    uint next;
+    float next_weight;
+    uint cluster;        // the last that is worth anything
+    LightCluster whole;  // that cluster
     float weight;
 };
 
@@ -95,25 +106,42 @@ FN ClusterSweep begin_cluster_sweep(IN(LightPicker) p, IN(Sampler) random) {
     ClusterSweep s;
     s.offset = unit_float(independent_words(random, DIMENSION_CLUSTER).x);
     s.reached = 0.0f;
+    s.next = 0u;
+    s.next_weight = 0.0f;
     s.cluster = 0u;
     s.weight = 0.0f;
     if (p.near > 0u) {
-        s.current = load_light_clusters(0u);
-        s.weight = cluster_weight(p, s.current);
+        s.whole = load_light_clusters(0u);
+        s.weight = cluster_weight(p, s.whole);
+        s.next_weight = s.weight;
     }
     return s;
 }
 
-/// A part of a cluster: where that is near by its own weight, else by power.
-FN LightCluster pick_part(IN(LightPicker) p, uint cluster, IN(LightCluster) whole, float u) {
-    float sum = parts_sum(p, cluster, whole);
-    float end = u * (sum > 0.0f ? sum : whole.pmf);
-    LightCluster part = load_cluster_part(cluster * PARTS_PER_CLUSTER);
+/// On to the cluster at `end` of the sum.
+FN void sweep_to(INOUT(ClusterSweep) s, IN(LightPicker) p, float end) {
+    while (s.reached + s.next_weight <= end && s.next + 1u < constants.light_cluster_count) {
+        s.reached += s.next_weight;
+        s.next += 1u;
+        LightCluster whole = load_light_clusters(s.next);
+        s.next_weight = cluster_weight(p, whole);
+        if (s.next_weight > 0.0f) {
+            s.cluster = s.next;
+            s.whole = whole;
+            s.weight = s.next_weight;
+        }
+    }
+}
+
+/// A part of the sweep's cluster, by its weight or its power.
+FN LightCluster pick_part(IN(ClusterSweep) s, IN(LightPicker) p, float parts, float u) {
+    LightCluster part = load_cluster_part(s.cluster, 0u);
+    float end = u * (parts > 0.0f ? parts : s.whole.pmf);
     float reached = 0.0f;
-    for (uint i = 0u; i < PARTS_PER_CLUSTER; i++) {
-        LightCluster next = load_cluster_part(cluster * PARTS_PER_CLUSTER + i);
-        float weight = sum > 0.0f ? cluster_weight(p, next) : next.pmf;
-        if (weight > 0.0f && reached <= end) {
+    for (uint i = 0u; i < s.whole.count && reached <= end; i++) {
+        LightCluster next = load_cluster_part(s.cluster, i);
+        float weight = parts > 0.0f ? cluster_weight(p, next) : next.pmf;
+        if (weight > 0.0f) {
             part = next;
         }
         reached += weight;
@@ -121,21 +149,32 @@ FN LightCluster pick_part(IN(LightPicker) p, uint cluster, IN(LightCluster) whol
     return part;
 }
 
-/// The light of the near pick `step`; steps rise. `words` are three.
-FN uint pick_near_light(INOUT(ClusterSweep) s, IN(LightPicker) p, uint step, uvec3 words) {
-    float end = (float(step) + s.offset) / float(p.near) * p.sum;
-    while (s.reached + s.weight <= end && s.cluster + 1u < constants.light_cluster_count) {
-        s.reached += s.weight;
-        s.cluster += 1u;
-        s.current = load_light_clusters(s.cluster);
-        s.weight = cluster_weight(p, s.current);
-    }
-    LightCluster part = pick_part(p, s.cluster, s.current, unit_float(words.z));
+/// A light and the density of all picks together of it, where that of one by power is 1.
+struct PickedLight {
+    uint id;
+    float picks;
+};
+
+/// The near pick number `step`; steps rise. `words` are three.
+FN PickedLight pick_near_light(INOUT(ClusterSweep) s, IN(LightPicker) p, uint step, uvec3 words) {
+    sweep_to(s, p, (float(step) + s.offset) / float(p.near) * p.sum);
+    float parts = parts_sum(p, s.cluster, s.whole);
+    LightCluster part = pick_part(s, p, parts, unit_float(words.z));
     ClusterPick column = load_cluster_picks(part.first + alias_column(words.x, part.count));
     AliasEntry entry;
     entry.probability = column.probability;
     entry.alias = column.alias;
-    return alias_pick(entry, column.light, words.y);
+    PickedLight picked;
+    picked.id = alias_pick(entry, column.light, words.y);
+    picked.picks = picks_of_part(p, s.whole, s.weight, part, parts);
+    return picked;
+}
+
+FN PickedLight pick_light_by_power(IN(LightPicker) p, uvec2 words) {
+    PickedLight picked;
+    picked.id = pick_light_by_power(words);
+    picked.picks = picks_of_light(p, picked.id);
+    return picked;
 }
 
 #endif

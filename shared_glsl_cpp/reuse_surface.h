@@ -16,7 +16,7 @@ SHARED_BEGIN
 CONST float TARGET_COS_MIN = 1.0e-3f;        // floor of cosines to the shading normal; octahedral rounding is below 1e-4
 CONST float TARGET_COS_MIN_MAPPED = 0.1f;    // under a normal map light also comes by the tangent facet
 CONST float TARGET_ALPHA_MIN = 0.001f;       // narrower lobes are widened: octahedral rounding moves their peaks
-CONST float TARGET_ALPHA_MIN_MAPPED = 0.1f;  // the tangent facet's lobes, which the target lacks, are no wider
+CONST float TARGET_ALPHA_MIN_MAPPED = 0.1f;  // under a normal map, as the target lacks the tangent facet's lobes
 CONST uint REUSE_SURFACE_VALID = 1u;
 CONST uint REUSE_SURFACE_MAPPED = 2u;
 
@@ -119,7 +119,8 @@ FN ReuseSurface pack_reuse_surface(vec3 position, IN(SurfaceBsdf) bsdf, vec3 wo)
 /// view is grazing.
 FN bool wants_reuse(IN(SurfaceBsdf) bsdf, vec3 wo) {
     vec3 normal = bent_normal(bsdf.mapped_normal, bsdf.geometric_normal, wo);
-    float least = bsdf.mapped != 0u ? TARGET_ALPHA_MIN_MAPPED : TARGET_ALPHA_MIN;
+    bool glossy = max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f;
+    float least = bsdf.mapped != 0u && glossy ? TARGET_ALPHA_MIN_MAPPED : TARGET_ALPHA_MIN;
     return bsdf.parameters.alpha >= least && bsdf.parameters.alpha * dot(normal, wo) >= 0.5f * TARGET_ALPHA_MIN;
 }
 

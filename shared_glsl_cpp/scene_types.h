@@ -125,14 +125,14 @@ ASSERT_SIZE(AliasEntry, 8);
 CONST uint PARTS_PER_CLUSTER = 16u;
 
 /// Lights that stand together (light_clusters.h): a cluster, or a part of one. All clusters come first; then their parts, of cluster k
-/// from light_cluster_count + k * PARTS_PER_CLUSTER on, those of pmf 0 where there are fewer.
+/// from light_cluster_count + k * PARTS_PER_CLUSTER on, as many as it has.
 struct LightCluster {
     vec3 center;   // by pmf
     float spread;  // m²: the mean square of the lights' distance from it
     float pmf;     // of picking one of them by power
     uint first;    // into cluster_picks
-    uint count;
-    float radius;  // m: the root of spread
+    uint count;    // of picks; of a cluster: of its parts
+    float radius;  // m: all lights are within it, as far as they shine
 };
 ASSERT_SIZE(LightCluster, 32);
 

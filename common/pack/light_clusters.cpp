@@ -10,7 +10,7 @@
 namespace diptych {
 namespace {
 
-/// Every point looks at all of them, so more cost time; fewer stand less close together.
+/// Every point looks at all of them, so more cost time; fewer are wider.
 constexpr std::size_t most_clusters = 128;
 
 /// Of the extent of all lights: nearer than this to a light, it no longer matters how near.
@@ -44,7 +44,9 @@ double pmf_of(const PackedScene& packed, std::size_t id) {
                                              : packed.punctual_lights[id - emitters].pmf);
 }
 
-/// Lights to be kept together or split: about their mean, across the axis along which they are spread most.
+/// Lights to be kept together or split: about their mean, across the axis along which they are spread most. Half of a
+/// light's weight is its probability and half is that of any light, for dim lamps and those that are off have a place
+/// too.
 struct Group {
     std::vector<std::uint32_t> lights;
     glm::dvec3 center{0};
@@ -57,10 +59,11 @@ struct Group {
 Group make_group(const PackedScene& packed, std::vector<std::uint32_t> lights) {
     Group group;
     group.lights = std::move(lights);
+    const double any = 1 / static_cast<double>(packed.emissive_triangles.size() + packed.punctual_lights.size());
     double total = 0;
     glm::dvec3 variance(0);
     for (const std::uint32_t id : group.lights) {
-        const double weight = pmf_of(packed, id) + 1e-12;  // so that lights that are off have a place too
+        const double weight = pmf_of(packed, id) + any;
         const glm::dvec3 center = place_of(packed, id).center;
         const glm::dvec3 step = center - group.center;
         total += weight;
@@ -118,11 +121,23 @@ struct Sum {
     }
 };
 
-shared::LightCluster make_cluster(const Sum& sum, double least_spread) {
+/// The farthest from there of the lights that shine, by their centres and their own root mean square.
+double radius_of(const PackedScene& packed, const Sum& sum, const std::vector<std::uint32_t>& lights) {
+    double radius = 0;
+    for (const std::uint32_t id : lights) {
+        if (pmf_of(packed, id) > 0) {
+            const Place place = place_of(packed, id);
+            radius = std::max(radius, glm::length(place.center - sum.center) + std::sqrt(place.spread));
+        }
+    }
+    return radius;
+}
+
+shared::LightCluster make_cluster(const Sum& sum, double radius, double least_spread) {
     shared::LightCluster cluster{};
     cluster.center = sum.center;
     cluster.spread = static_cast<float>(std::max(sum.pmf > 0 ? sum.moment / sum.pmf : 0, least_spread));
-    cluster.radius = std::sqrt(cluster.spread);
+    cluster.radius = static_cast<float>(std::max(radius, std::sqrt(least_spread)));
     cluster.pmf = static_cast<float>(sum.pmf);
     return cluster;
 }
@@ -216,6 +231,8 @@ void weigh_clusters(PackedScene& packed) {
     const double least = least_spread(packed);
     for (std::size_t k = 0; k < clusters; ++k) {
         Sum whole;
+        std::vector<std::uint32_t> all;
+        std::uint32_t parts = 0;
         for (std::size_t j = 0; j < shared::PARTS_PER_CLUSTER; ++j) {
             Sum sum;
             const std::vector<std::uint32_t>& own = lights[k * shared::PARTS_PER_CLUSTER + j];
@@ -223,11 +240,14 @@ void weigh_clusters(PackedScene& packed) {
                 sum.add(place_of(packed, id), pmf_of(packed, id));
                 whole.add(place_of(packed, id), pmf_of(packed, id));
             }
-            shared::LightCluster part = make_cluster(sum, least);
+            shared::LightCluster part = make_cluster(sum, radius_of(packed, sum, own), least);
             append_picks(packed, own, part);
             packed.light_clusters.push_back(part);
+            all.insert(all.end(), own.begin(), own.end());
+            parts += own.empty() ? 0 : 1;
         }
-        packed.light_clusters[k] = make_cluster(whole, least);
+        packed.light_clusters[k] = make_cluster(whole, radius_of(packed, whole, all), least);
+        packed.light_clusters[k].count = parts;
     }
 }
 

@@ -137,7 +137,7 @@ void forget_previous(PackedScene& packed) {
 /// Clusters where they are wanted, and else none.
 void recluster(PackedScene& packed, bool wanted) {
     packed.part_of_light.clear();
-    packed.light_clusters.clear();
+    packed.constants.light_cluster_count = 0;
     if (wanted) {
         cluster_lights(packed);
     }
@@ -162,11 +162,13 @@ bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedS
         scene.lights.size() != packed.punctual_lights.size()) {
         return false;
     }
+    const bool resampled = packed.constants.integrator == shared::INTEGRATOR_RIS ||
+                           packed.constants.integrator == shared::INTEGRATOR_RESTIR;
     pack_moment(scene, settings, packed);
     packed.features = features;
     packed.keeps_previous = settings.moves;
     pack_settings(settings, packed.constants);
-    if (resamples(settings.integrator) == packed.part_of_light.empty()) {
+    if (resamples(settings.integrator) != resampled) {
         recluster(packed, resamples(settings.integrator));
     }
     forget_previous(packed);

@@ -19,7 +19,7 @@ inline bool resamples(Integrator integrator) {
 /// How `ris` and `restir` resample; see ResamplingConstants in shared_glsl_cpp/scene_types.h.
 struct ResamplingSettings {
     std::uint32_t light_candidates = 8;
-    float near_share = 0.5F;  // of them, rounded down: picked by power over the square of the distance
+    float near_share = 0.5F;  // of them, rounded down: picked by power times cosine over the square of the distance
     bool bsdf_candidate = true;
     bool temporal = true;
     std::uint32_t spatial_passes = 1;

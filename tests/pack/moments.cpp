@@ -281,4 +281,10 @@ TEST_CASE("settings are taken over at any moment, which is then its own past") {
     settings.moves = true;
     REQUIRE(repack_settings(scene, settings, packed));
     check_same(packed, pack_scene(scene, settings));
+    CHECK(packed.constants.light_cluster_count >= 2);
+    settings.integrator = Integrator::direct;
+    settings.moves = false;
+    REQUIRE(repack_settings(scene, settings, packed));
+    check_same(packed, pack_scene(scene, settings));
+    CHECK(packed.light_clusters.empty());
 }

@@ -43,14 +43,18 @@ TEST_CASE("Lights are picked as often as their density says, near and far") {
         REQUIRE(picker.near == 4);
         constexpr std::uint32_t samples = 100000;
         std::vector<double> observed(lights, 0);
+        int differs = 0;
         for (std::uint32_t i = 0; i < samples; ++i) {
             const shared::Sampler random = shared::make_sampler({3, 5}, i, 1, shared::SAMPLER_INDEPENDENT, samples);
             auto sweep = kernel.begin_cluster_sweep(picker, random);
             for (std::uint32_t step = 0; step < picker.near; ++step) {
                 const glm::uvec4 w = shared::independent_words(random, shared::DIMENSION_CANDIDATE + step);
-                observed[kernel.pick_near_light(sweep, picker, step, {w.x, w.y, w.z})] += 1;
+                const auto picked = kernel.pick_near_light(sweep, picker, step, {w.x, w.y, w.z});
+                observed[picked.id] += 1;
+                differs += picked.picks == kernel.picks_of_light(picker, picked.id) ? 0 : 1;
             }
         }
+        CHECK(differs == 0);
         std::vector<double> expected(lights, 0);
         double sum = 0;
         for (std::uint32_t id = 0; id < lights; ++id) {
@@ -68,6 +72,34 @@ TEST_CASE("Lights are picked as often as their density says, near and far") {
         CHECK(fit.freedom > 2);
         CHECK(chi_square_deviate(fit) < deviate_limit);
     }
+}
+
+TEST_CASE("A dim lamp is found beside itself, though bright ones share its cluster") {
+    Scene scene = generated("many-lights", 300);
+    for (Material& material : scene.materials) {
+        if (material.name == "light 1") {
+            material.emission *= 1000.0F;
+        }
+    }
+    RenderSettings settings;
+    settings.width = 8;
+    settings.height = 8;
+    settings.integrator = Integrator::ris;
+    const PackedScene packed = pack_scene(scene, settings);
+    const EmbreeScene embree(packed);
+    Kernel kernel{packed, packed.constants, {{embree}}};
+    float dimmest = 1;
+    for (std::uint32_t id = 0; id < packed.emissive_triangles.size(); ++id) {
+        const shared::EmissiveTriangle& light = packed.emissive_triangles[id];
+        // A little in front of it, looking back.
+        const glm::vec3 middle = light.vertex_0 + (light.edge_1 + light.edge_2) / 3.0F;
+        const float aside = std::sqrt(light.double_area);
+        const auto picker = kernel.begin_light_picker(surface_at(middle + aside * light.front, -light.front));
+        dimmest = std::min(dimmest, light.pmf);
+        INFO(id << ": by power " << 8 * light.pmf);
+        CHECK(kernel.picks_of_light(picker, id) * light.pmf > 0.05F);
+    }
+    CHECK(dimmest < 1e-3F);
 }
 
 }  // namespace diptych::tests
