@@ -71,26 +71,27 @@ FN FirstSurface load_first_surface(uvec2 pixel, IN(ResamplingPass) pass, IN(Hit)
     return first;
 }
 
-/// The target where a candidate is made: the one that others can evaluate, or, where none will, the integrand itself.
-FN float candidate_target(IN(FirstSurface) first, IN(TargetSurface) surface, IN(SeenLight) light) {
-    if (!(light.measure > 0.0f)) {
-        return 0.0f;
+/// What light points are picked for: the surface as others see it, or, where none will, white paper. That has no narrow lobe which the true
+/// ones might miss, and costs nothing; most such surfaces look at the integrand once more when they sample their material.
+FN TargetSurface picking_surface(IN(FirstSurface) first) {
+    TargetSurface s = unpack_reuse_surface(first.packed);
+    if (!first.reuses) {
+        s.diffuse = vec3(1.0f, 1.0f, 1.0f);
+        s.f0 = vec3(0.0f, 0.0f, 0.0f);
+        s.f90 = 0.0f;
+        s.alpha = 1.0f;
     }
-    if (first.reuses) {
-        return unoccluded_target(surface, light);
-    }
-    vec3 f = surface_bsdf_eval(first.bsdf, first.wo, light.direction, features());
-    return light.measure * luminance(f * light.radiance);
+    return s;
 }
 
 /// Light points, one kept in proportion to the target.
-FN Resampling resample_lights(IN(FirstSurface) first, IN(TargetSurface) surface, IN(LightPicker) picker) {
+FN Resampling resample_lights(IN(TargetSurface) surface, IN(LightPicker) picker, IN(Sampler) random) {
     Resampling chosen = begin_resampling();
     uint count = constants.light_count > 0u ? constants.resampling.light_candidates : 0u;
-    ClusterSweep sweep = begin_cluster_sweep(picker, first.random);
+    ClusterSweep sweep = begin_cluster_sweep(picker, random);
     for (uint i = 0u; i < count; i++) {
-        uvec4 words = independent_words(first.random, DIMENSION_CANDIDATE + i);
-        uvec4 pick = independent_words(first.random, DIMENSION_CANDIDATE_PICK + i);
+        uvec4 words = independent_words(random, DIMENSION_CANDIDATE + i);
+        uvec4 pick = independent_words(random, DIMENSION_CANDIDATE_PICK + i);
         PickedLight picked;
         if (i < picker.by_power) {
             picked = pick_light_by_power(picker, uvec2(words.x, words.y));
@@ -102,8 +103,7 @@ FN Resampling resample_lights(IN(FirstSurface) first, IN(TargetSurface) surface,
         if (!(candidate.pdf > 0.0f)) {
             continue;
         }
-        SeenLight light = see_light_point(candidate.point, surface.position, MOMENT_CURRENT);
-        float target = candidate_target(first, surface, light);
+        float target = unoccluded_target(surface, see_light_point(candidate.point, surface.position, MOMENT_CURRENT));
         add_candidate(chosen, candidate.point, target, target / (picked.picks * candidate.pdf), unit_float(pick.x));
     }
     return chosen;
@@ -152,9 +152,9 @@ FN uint resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
     if (first.takes_light) {
         vertex.origin = first.origin;
         store_first_vertex(index, vertex);
-        TargetSurface surface = unpack_reuse_surface(first.packed);
+        TargetSurface surface = picking_surface(first);
         LightPicker picker = begin_light_picker(surface);
-        reservoir = initial_reservoir(resample_lights(first, surface, picker));
+        reservoir = initial_reservoir(resample_lights(surface, picker, first.random));
         needs = bsdf_candidate_needs(first, picker, reservoir);
         if (first.reuses) {
             kept = first.packed;

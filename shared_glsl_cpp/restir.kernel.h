@@ -61,6 +61,15 @@ FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) p
     return found;
 }
 
+/// The target of what is chosen in the end: the one that others can evaluate, or, where none will, the integrand itself.
+FN float candidate_target(IN(FirstSurface) first, IN(TargetSurface) surface, IN(SeenLight) light) {
+    if (first.reuses || !(light.measure > 0.0f)) {
+        return unoccluded_target(surface, light);
+    }
+    vec3 f = surface_bsdf_eval(first.bsdf, first.wo, light.direction, features());
+    return light.measure * luminance(f * light.radiance);
+}
+
 /// Adds what sampling the material finds to what picking lights found.
 FN void add_bsdf_candidate(uvec2 pixel, uint needs, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
