@@ -118,6 +118,15 @@ TEST_CASE("Spatial passes draw apart") {
     check_frames(c, {0, 4}, 4, {16, 16});
 }
 
+TEST_CASE("Frames draw apart") {
+    ChainCase c = chain_case("hidden lamp", hidden_lamp());
+    c.settings.resampling.light_candidates = 1;
+    c.settings.resampling.bsdf_candidate = false;
+    c.settings.resampling.neighbors = 1;
+    c.settings.resampling.radius = 3;
+    check_frames(c, {0, 4, 8}, 4, {16, 16});
+}
+
 TEST_CASE("MIS between lights and material knows what is hidden", "[nightly]") {
     ChainCase c = chain_case("glossy slats", slats(true));
     c.settings.resampling.light_candidates = 1;
