@@ -166,7 +166,7 @@ inline void check_frames(const ChainCase& c, const std::vector<std::uint32_t>& f
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (i == 0 || c.seconds > 0 || c.orbit != 0) {
             const bool still = c.seconds == 0 && c.orbit == 0;
-            reference = run_reference(c, size, frames[i], still ? 32 : 16, still ? 128 : 64, make);
+            reference = run_reference(c, size, frames[i], still ? 32 : 16, 128, make);
         }
         const Difference d = difference(means[i], reference);
         std::printf("%s, %s, frame %u: %.2f %% +- %.2f %%, z %.2f\n", c.name.c_str(),
