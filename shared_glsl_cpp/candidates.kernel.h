@@ -88,7 +88,7 @@ FN TargetSurface picking_surface(IN(FirstSurface) first) {
 FN Resampling resample_lights(IN(TargetSurface) surface, IN(LightPicker) picker, IN(Sampler) random) {
     Resampling chosen = begin_resampling();
     uint count = constants.light_count > 0u ? constants.resampling.light_candidates : 0u;
-    ClusterSweep sweep = begin_cluster_sweep(picker, random);
+    ClusterSteps steps = begin_cluster_steps(random);
     for (uint i = 0u; i < count; i++) {
         uvec4 words = independent_words(random, DIMENSION_CANDIDATE + i);
         uvec4 pick = independent_words(random, DIMENSION_CANDIDATE_PICK + i);
@@ -96,7 +96,7 @@ FN Resampling resample_lights(IN(TargetSurface) surface, IN(LightPicker) picker,
         if (i < picker.by_power) {
             picked = pick_light_by_power(picker, uvec2(words.x, words.y));
         } else {
-            picked = pick_near_light(sweep, picker, i - picker.by_power, uvec3(words.x, words.y, pick.w));
+            picked = pick_near_light(steps, picker, i - picker.by_power, uvec3(words.x, words.y, pick.w));
         }
         vec2 u = vec2(unit_float(words.z), unit_float(words.w));
         LightPointSample candidate = sample_light_point(picked.id, u, uvec2(pick.y, pick.z));

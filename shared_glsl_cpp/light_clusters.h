@@ -16,11 +16,11 @@ FN float cluster_falloff(IN(LightCluster) cluster, vec3 position, vec3 normal) {
     return falloff;
 }
 
-/// Whether a place is so near that it matters which of the lights are nearest: within two radii, or `margin` metres.
-FN bool is_near_cluster(IN(LightCluster) cluster, vec3 position, float margin) {
+/// The square of a place's distance beyond the square of two radii, m²; where it is negative it matters which of the lights are nearest.
+FN float distance_beyond(IN(LightCluster) cluster, vec3 position) {
     vec3 d = cluster.center - position;
-    PRECISE float reach = 4.0f * cluster.radius * cluster.radius + margin * margin;
-    return dot(d, d) < reach;
+    PRECISE float beyond = dot(d, d) - 4.0f * cluster.radius * cluster.radius;
+    return beyond;
 }
 
 /// The part of a cluster that a triangle of such flags is in, NONE where there are none.

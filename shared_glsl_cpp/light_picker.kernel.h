@@ -12,6 +12,7 @@ struct LightPicker {
     uint by_power;  // picks
     uint near;      // picks
     float sum;      // of the clusters' weights
+    float groups[CLUSTER_GROUPS];  // of the sum, CLUSTERS_PER_GROUP clusters each
     bool close;     // emitters may be within reach
 };
 
@@ -32,13 +33,21 @@ FN LightPicker begin_light_picker(IN(TargetSurface) surface) {
     p.sum = 0.0f;
     p.close = constants.resampling.reach > 0.0f;
     if (p.near > 0u && constants.light_cluster_count > 0u) {
-        p.close = false;
         float reach = light_reach();
-        for (uint i = 0u; i < constants.light_cluster_count; i++) {
-            LightCluster cluster = load_light_clusters(i);
-            p.sum += cluster_weight(p, cluster);
-            p.close = p.close || (reach > 0.0f && is_near_cluster(cluster, p.position, reach));
+        float nearest = INFINITE_DISTANCE;
+        for (uint g = 0u; g < CLUSTER_GROUPS; g++) {
+            float sum = 0.0f;
+            if (g * CLUSTERS_PER_GROUP < constants.light_cluster_count) {
+                for (uint i = 0u; i < CLUSTERS_PER_GROUP; i++) {
+                    LightCluster cluster = load_light_clusters(g * CLUSTERS_PER_GROUP + i);
+                    sum += cluster_weight(p, cluster);
+                    nearest = min(nearest, distance_beyond(cluster, p.position));
+                }
+            }
+            p.groups[g] = sum;
+            p.sum += sum;
         }
+        p.close = reach > 0.0f && nearest < reach * reach;
     }
     // So far away that nothing is left of it.
     p.near = p.sum > 0.0f && p.sum < INFINITE_DISTANCE ? p.near : 0u;
@@ -53,8 +62,8 @@ FN LightCluster load_cluster_part(uint cluster, uint i) {
 /// The sum of the weights of a cluster's parts; 0: there its parts are picked by power.
 FN float parts_sum(IN(LightPicker) p, uint cluster, IN(LightCluster) whole) {
     float sum = 0.0f;
-    if (whole.count > 1u && is_near_cluster(whole, p.position, 0.0f)) {
-        for (uint i = 0u; i < whole.count; i++) {
+    if (whole.count > 1u && distance_beyond(whole, p.position) < 0.0f) {
+        for (uint i = 0u; i < PARTS_PER_CLUSTER; i++) {
             sum += cluster_weight(p, load_cluster_part(cluster, i));
         }
     }
@@ -91,62 +100,70 @@ FN float picks_of_light(IN(LightPicker) p, uint id) {
     return picks_of_part(p, whole, weight, own, parts_sum(p, cluster, whole));
 }
 
-/// Picks from clusters go through them in one sweep, as they are at equal steps of the sum.
-struct ClusterSweep {
+/// Picks from clusters are at equal steps of the sum of their weights.
+struct ClusterSteps {
     float offset;        // of the steps, [0, 1)
-    float reached;       // the sum before `next`
-    uint next;
-    float next_weight;
-    uint cluster;        // the last that is worth anything
+    uint cluster;        // where the last step was; NONE before the first
     LightCluster whole;  // that cluster
-    float weight;
+    float weight;        // its
+    float parts;         // parts_sum of it
 };
 
-FN ClusterSweep begin_cluster_sweep(IN(LightPicker) p, IN(Sampler) random) {
-    ClusterSweep s;
+FN ClusterSteps begin_cluster_steps(IN(Sampler) random) {
+    ClusterSteps s;
     s.offset = unit_float(independent_words(random, DIMENSION_CLUSTER).x);
-    s.reached = 0.0f;
-    s.next = 0u;
-    s.next_weight = 0.0f;
-    s.cluster = 0u;
+    s.cluster = NONE;
     s.weight = 0.0f;
-    if (p.near > 0u) {
-        s.whole = load_light_clusters(0u);
-        s.weight = cluster_weight(p, s.whole);
-        s.next_weight = s.weight;
-    }
+    s.parts = 0.0f;
     return s;
 }
 
-/// On to the cluster at `end` of the sum.
-FN void sweep_to(INOUT(ClusterSweep) s, IN(LightPicker) p, float end) {
-    while (s.reached + s.next_weight <= end && s.next + 1u < constants.light_cluster_count) {
-        s.reached += s.next_weight;
-        s.next += 1u;
-        LightCluster whole = load_light_clusters(s.next);
-        s.next_weight = cluster_weight(p, whole);
-        if (s.next_weight > 0.0f) {
-            s.cluster = s.next;
-            s.whole = whole;
-            s.weight = s.next_weight;
+/// The cluster at `end` of the sum, and of those that are worth anything.
+FN uint cluster_at(IN(LightPicker) p, float end) {
+    uint group = 0u;
+    float start = 0.0f;
+    float reached = 0.0f;
+    for (uint g = 0u; g < CLUSTER_GROUPS; g++) {
+        if (p.groups[g] > 0.0f && reached <= end) {
+            group = g;
+            start = reached;
         }
+        reached += p.groups[g];
+    }
+    uint cluster = group * CLUSTERS_PER_GROUP;
+    reached = start;
+    for (uint i = 0u; i < CLUSTERS_PER_GROUP; i++) {
+        uint next = group * CLUSTERS_PER_GROUP + i;
+        float weight = cluster_weight(p, load_light_clusters(next));
+        cluster = weight > 0.0f && reached <= end ? next : cluster;
+        reached += weight;
+    }
+    return cluster;
+}
+
+/// Steps rise, so that several in one cluster come after each other.
+FN void step_to(INOUT(ClusterSteps) s, IN(LightPicker) p, float end) {
+    uint cluster = cluster_at(p, end);
+    if (cluster != s.cluster) {
+        s.cluster = cluster;
+        s.whole = load_light_clusters(cluster);
+        s.weight = cluster_weight(p, s.whole);
+        s.parts = parts_sum(p, cluster, s.whole);
     }
 }
 
-/// A part of the sweep's cluster, by its weight or its power.
-FN LightCluster pick_part(IN(ClusterSweep) s, IN(LightPicker) p, float parts, float u) {
-    LightCluster part = load_cluster_part(s.cluster, 0u);
-    float end = u * (parts > 0.0f ? parts : s.whole.pmf);
+/// A part of the cluster, by its weight or its power.
+FN LightCluster pick_part(IN(ClusterSteps) s, IN(LightPicker) p, float u) {
+    uint chosen = 0u;
+    float end = u * (s.parts > 0.0f ? s.parts : s.whole.pmf);
     float reached = 0.0f;
     for (uint i = 0u; i < s.whole.count && reached <= end; i++) {
-        LightCluster next = load_cluster_part(s.cluster, i);
-        float weight = parts > 0.0f ? cluster_weight(p, next) : next.pmf;
-        if (weight > 0.0f) {
-            part = next;
-        }
+        LightCluster part = load_cluster_part(s.cluster, i);
+        float weight = s.parts > 0.0f ? cluster_weight(p, part) : part.pmf;
+        chosen = weight > 0.0f ? i : chosen;
         reached += weight;
     }
-    return part;
+    return load_cluster_part(s.cluster, chosen);
 }
 
 /// A light and the density of all picks together of it, where that of one by power is 1.
@@ -156,17 +173,16 @@ struct PickedLight {
 };
 
 /// The near pick number `step`; steps rise. `words` are three.
-FN PickedLight pick_near_light(INOUT(ClusterSweep) s, IN(LightPicker) p, uint step, uvec3 words) {
-    sweep_to(s, p, (float(step) + s.offset) / float(p.near) * p.sum);
-    float parts = parts_sum(p, s.cluster, s.whole);
-    LightCluster part = pick_part(s, p, parts, unit_float(words.z));
+FN PickedLight pick_near_light(INOUT(ClusterSteps) s, IN(LightPicker) p, uint step, uvec3 words) {
+    step_to(s, p, (float(step) + s.offset) / float(p.near) * p.sum);
+    LightCluster part = pick_part(s, p, unit_float(words.z));
     ClusterPick column = load_cluster_picks(part.first + alias_column(words.x, part.count));
     AliasEntry entry;
     entry.probability = column.probability;
     entry.alias = column.alias;
     PickedLight picked;
     picked.id = alias_pick(entry, column.light, words.y);
-    picked.picks = picks_of_part(p, s.whole, s.weight, part, parts);
+    picked.picks = picks_of_part(p, s.whole, s.weight, part, s.parts);
     return picked;
 }
 

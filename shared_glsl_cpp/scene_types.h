@@ -122,7 +122,11 @@ struct AliasEntry {
 };
 ASSERT_SIZE(AliasEntry, 8);
 
-CONST uint PARTS_PER_CLUSTER = 16u;
+/// Every place looks at all clusters, so more cost time; fewer are wider.
+CONST uint CLUSTER_GROUPS = 16u;
+CONST uint CLUSTERS_PER_GROUP = 8u;  // the last group too, with clusters of no light
+CONST uint MOST_CLUSTERS = CLUSTER_GROUPS * CLUSTERS_PER_GROUP;
+CONST uint PARTS_PER_CLUSTER = 8u;
 
 /// Lights that stand together (light_clusters.h): a cluster, or a part of one. All clusters come first; then their parts, of cluster k
 /// from light_cluster_count + k * PARTS_PER_CLUSTER on, as many as it has.

@@ -10,9 +10,6 @@
 namespace diptych {
 namespace {
 
-/// Every point looks at all of them, so more cost time; fewer are wider.
-constexpr std::size_t most_clusters = 128;
-
 /// Of the extent of all lights: nearer than this to a light, it no longer matters how near.
 constexpr double least_distance = 1e-5;
 
@@ -198,7 +195,7 @@ void cluster_lights(PackedScene& packed) {
             placed.push_back(id);
         }
     }
-    const std::vector<Group> clusters = split_lights(packed, std::move(placed), most_clusters);
+    const std::vector<Group> clusters = split_lights(packed, std::move(placed), shared::MOST_CLUSTERS);
     packed.part_of_light.clear();
     packed.light_clusters.clear();
     packed.constants.light_cluster_count = 0;
@@ -214,7 +211,8 @@ void cluster_lights(PackedScene& packed) {
             }
         }
     }
-    packed.constants.light_cluster_count = static_cast<std::uint32_t>(clusters.size());
+    const std::size_t groups = (clusters.size() + shared::CLUSTERS_PER_GROUP - 1) / shared::CLUSTERS_PER_GROUP;
+    packed.constants.light_cluster_count = static_cast<std::uint32_t>(groups * shared::CLUSTERS_PER_GROUP);
 }
 
 void weigh_clusters(PackedScene& packed) {
@@ -246,7 +244,12 @@ void weigh_clusters(PackedScene& packed) {
             all.insert(all.end(), own.begin(), own.end());
             parts += own.empty() ? 0 : 1;
         }
-        packed.light_clusters[k] = make_cluster(whole, radius_of(packed, whole, all), least);
+        if (all.empty()) {  // fills up a group: the cluster before it, without its lights
+            packed.light_clusters[k] = packed.light_clusters[k - 1];
+            packed.light_clusters[k].pmf = 0;
+        } else {
+            packed.light_clusters[k] = make_cluster(whole, radius_of(packed, whole, all), least);
+        }
         packed.light_clusters[k].count = parts;
     }
 }

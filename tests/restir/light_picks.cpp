@@ -46,10 +46,10 @@ TEST_CASE("Lights are picked as often as their density says, near and far") {
         int differs = 0;
         for (std::uint32_t i = 0; i < samples; ++i) {
             const shared::Sampler random = shared::make_sampler({3, 5}, i, 1, shared::SAMPLER_INDEPENDENT, samples);
-            auto sweep = kernel.begin_cluster_sweep(picker, random);
+            auto steps = kernel.begin_cluster_steps(random);
             for (std::uint32_t step = 0; step < picker.near; ++step) {
                 const glm::uvec4 w = shared::independent_words(random, shared::DIMENSION_CANDIDATE + step);
-                const auto picked = kernel.pick_near_light(sweep, picker, step, {w.x, w.y, w.z});
+                const auto picked = kernel.pick_near_light(steps, picker, step, {w.x, w.y, w.z});
                 observed[picked.id] += 1;
                 differs += picked.picks == kernel.picks_of_light(picker, picked.id) ? 0 : 1;
             }
