@@ -61,7 +61,8 @@ TEST_CASE("ris is unbiased on glossy surfaces, where material sampling finds the
     for (const Integrator integrator : {Integrator::ris, Integrator::restir}) {
         ChainCase c = chain_case("veach", generated("veach-mis"));
         c.settings.integrator = integrator;
-        check_frames(c, {0, 3}, 20);
+        // The smoothest plate shows the smallest lamp within a part of one pixel, which few camera rays meet.
+        check_frames(c, {0, 3}, 15, {16, 16});
     }
 }
 
