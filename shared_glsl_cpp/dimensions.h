@@ -27,7 +27,7 @@ CONST uint DIMENSION_BSDF_CANDIDATE = 0x30000u;
 CONST uint DIMENSION_TEMPORAL = 0x40000u;
 CONST uint DIMENSION_NEIGHBOR = 0x50000u;          // + pass * (RESAMPLING_MAX_NEIGHBORS + 1) + neighbour: where it lies
 CONST uint DIMENSION_NEIGHBOR_PICK = 0x60000u;     // likewise: which sample is kept
-CONST uint DIMENSION_CLUSTER = 0x70000u;           // where the sweep through the lights' clusters begins
+CONST uint DIMENSION_CLUSTER = 0x70000u;           // where the steps through the clusters of lights begin
 
 SHARED_END
 
