@@ -16,11 +16,11 @@ FN float cluster_falloff(IN(LightCluster) cluster, vec3 position, vec3 normal) {
     return falloff;
 }
 
-/// The square of a place's distance beyond the square of two radii, m²; where it is negative it matters which of the lights are nearest.
-FN float distance_beyond(IN(LightCluster) cluster, vec3 position) {
+/// The square of a place's distance from a cluster less that of two radii, m². Where it is negative it matters which of the lights are nearest.
+FN float squared_excess(IN(LightCluster) cluster, vec3 position) {
     vec3 d = cluster.center - position;
-    PRECISE float beyond = dot(d, d) - 4.0f * cluster.radius * cluster.radius;
-    return beyond;
+    PRECISE float excess = dot(d, d) - 4.0f * cluster.radius * cluster.radius;
+    return excess;
 }
 
 /// The part of a cluster that a triangle of such flags is in, NONE where there are none.

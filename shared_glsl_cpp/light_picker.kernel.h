@@ -12,7 +12,7 @@ struct LightPicker {
     uint by_power;  // picks
     uint near;      // picks
     float sum;      // of the clusters' weights
-    float groups[CLUSTER_GROUPS];  // of the sum, CLUSTERS_PER_GROUP clusters each
+    float groups[CLUSTER_GROUPS];  // the sum's terms, CLUSTERS_PER_GROUP clusters each: a pick looks into one
     bool close;     // emitters may be within reach
 };
 
@@ -41,7 +41,7 @@ FN LightPicker begin_light_picker(IN(TargetSurface) surface) {
                 for (uint i = 0u; i < CLUSTERS_PER_GROUP; i++) {
                     LightCluster cluster = load_light_clusters(g * CLUSTERS_PER_GROUP + i);
                     sum += cluster_weight(p, cluster);
-                    nearest = min(nearest, distance_beyond(cluster, p.position));
+                    nearest = min(nearest, squared_excess(cluster, p.position));
                 }
             }
             p.groups[g] = sum;
@@ -59,10 +59,10 @@ FN LightCluster load_cluster_part(uint cluster, uint i) {
     return load_light_clusters(constants.light_cluster_count + cluster * PARTS_PER_CLUSTER + i);
 }
 
-/// The sum of the weights of a cluster's parts; 0: there its parts are picked by power.
+/// The sum of the weights of a cluster's parts, of which those it lacks have none; 0: there its parts are picked by power.
 FN float parts_sum(IN(LightPicker) p, uint cluster, IN(LightCluster) whole) {
     float sum = 0.0f;
-    if (whole.count > 1u && distance_beyond(whole, p.position) < 0.0f) {
+    if (whole.count > 1u && squared_excess(whole, p.position) < 0.0f) {
         for (uint i = 0u; i < PARTS_PER_CLUSTER; i++) {
             sum += cluster_weight(p, load_cluster_part(cluster, i));
         }
@@ -105,7 +105,7 @@ struct ClusterSteps {
     float offset;        // of the steps, [0, 1)
     uint cluster;        // where the last step was; NONE before the first
     LightCluster whole;  // that cluster
-    float weight;        // its
+    float weight;        // cluster_weight of it
     float parts;         // parts_sum of it
 };
 
@@ -118,7 +118,7 @@ FN ClusterSteps begin_cluster_steps(IN(Sampler) random) {
     return s;
 }
 
-/// The cluster at `end` of the sum, and of those that are worth anything.
+/// The last cluster worth anything that begins at `end` of the sum or before.
 FN uint cluster_at(IN(LightPicker) p, float end) {
     uint group = 0u;
     float start = 0.0f;

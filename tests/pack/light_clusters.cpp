@@ -147,6 +147,26 @@ TEST_CASE("a part's table picks each of its lights in proportion") {
     CHECK(seen.size() == packed.emissive_triangles.size() + 1);
 }
 
+TEST_CASE("the last group is filled up with clusters of no light, where the last cluster is") {
+    const PackedScene packed = pack_scene(generate_scene("moving-light").scene, restir_settings());
+    const std::size_t clusters = packed.constants.light_cluster_count;
+    CHECK(clusters % shared::CLUSTERS_PER_GROUP == 0);
+    std::size_t filled = 0;
+    for (std::size_t k = 1; k < clusters; ++k) {
+        const shared::LightCluster& cluster = packed.light_clusters[k];
+        if (cluster.count == 0) {
+            filled += 1;
+            CHECK(cluster.pmf == 0);
+            CHECK(cluster.center == packed.light_clusters[k - 1].center);
+            CHECK(cluster.radius == packed.light_clusters[k - 1].radius);
+            for (std::size_t j = 0; j < shared::PARTS_PER_CLUSTER; ++j) {
+                CHECK(packed.light_clusters[clusters + k * shared::PARTS_PER_CLUSTER + j].pmf == 0);
+            }
+        }
+    }
+    CHECK(filled > 0);
+}
+
 TEST_CASE("clusters are left out where nothing resamples, or all light is in one place") {
     RenderSettings settings = restir_settings();
     settings.integrator = Integrator::path;

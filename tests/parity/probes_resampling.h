@@ -134,7 +134,7 @@ FN void probe_light_cluster(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     cluster.count = 1u;
     put_bits(o, part_of_flags(p.words.x));
     vec3 d = p.vertex - p.edge_1;
-    put(o, distance_beyond(cluster, p.edge_1), dot(d, d) + 4.0f * cluster.radius * cluster.radius);
+    put(o, squared_excess(cluster, p.edge_1), dot(d, d) + 4.0f * cluster.radius * cluster.radius);
     // cos/r², whose numerator may cancel.
     float squared = dot(d, d) + cluster.spread;
     put(o, cluster_falloff(cluster, p.edge_1, p.axis), (length(d) + cluster.radius) * inversesqrt(squared) / squared);
