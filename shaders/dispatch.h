@@ -6,6 +6,8 @@
 
 SHARED_BEGIN
 
+CONST uint REGION_SIDE = 8u;  // pixels, of a group of a compute shader over a region
+
 /// The push constants: which pixels and samples; when rays or paths are recorded, for how much there is room.
 struct Dispatch {
     uvec2 origin;  // first pixel

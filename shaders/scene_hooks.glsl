@@ -54,8 +54,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer first_vertic
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer reservoirs_buffer { Reservoir data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer reuse_surfaces_buffer { ReuseSurface data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer candidate_list_buffer {
-    uvec3 command;   // indirect, of which x counts
-    uint entries[];  // a pixel's index, and in the low two bits what it needs
+    uvec3 command;  // indirect, of which x counts
+    CandidateRequest entries[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer recorded_rays_buffer { RecordedRay data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ray_counters_buffer { RayCounters data; };

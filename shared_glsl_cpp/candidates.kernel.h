@@ -141,21 +141,29 @@ FN uint bsdf_candidate_needs(IN(FirstSurface) first, IN(LightPicker) picker, IN(
     return needs;
 }
 
+FN bool needs_rays(IN(CandidateRequest) r) {
+    return (r.needs & (CANDIDATE_SAMPLES_BSDF | CANDIDATE_TESTS_PICKED)) != 0u;
+}
+
 /// The reservoir, for now, and the surface for others. Returns what add_bsdf_candidate has to do, if anything.
-FN uint resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
+FN CandidateRequest resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
     FirstVertex vertex = load_first_vertex(index);
     FirstSurface first = load_first_surface(pixel, pass, vertex.hit);
     Reservoir reservoir = empty_reservoir();
     ReuseSurface kept = no_reuse_surface();
-    uint needs = 0u;
+    CandidateRequest request;
+    request.pixel = index;
+    request.needs = 0u;
+    request.near_sum = 0.0f;
     if (first.takes_light) {
         vertex.origin = first.origin;
         store_first_vertex(index, vertex);
         TargetSurface surface = picking_surface(first);
         LightPicker picker = begin_light_picker(surface);
         reservoir = initial_reservoir(resample_lights(surface, picker, first.random));
-        needs = bsdf_candidate_needs(first, picker, reservoir);
+        request.needs = bsdf_candidate_needs(first, picker, reservoir) | (picker.close ? CANDIDATE_IS_CLOSE : 0u);
+        request.near_sum = picker.sum;
         if (first.reuses) {
             kept = first.packed;
         }
@@ -164,7 +172,7 @@ FN uint resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
     if (constants.integrator == INTEGRATOR_RESTIR) {
         store_reuse_surface(pass.surfaces, index, kept);
     }
-    return needs;
+    return request;
 }
 
 #endif

@@ -50,7 +50,20 @@ FN LightPicker begin_light_picker(IN(TargetSurface) surface) {
         p.close = reach > 0.0f && nearest < reach * reach;
     }
     // So far away that nothing is left of it.
-    p.near = p.sum > 0.0f && p.sum < INFINITE_DISTANCE ? p.near : 0u;
+    p.sum = p.sum < INFINITE_DISTANCE ? p.sum : 0.0f;
+    p.near = p.sum > 0.0f ? p.near : 0u;
+    p.by_power = constants.resampling.light_candidates - p.near;
+    return p;
+}
+
+/// The picker of the same place again, to ask for densities and not to pick.
+FN LightPicker resume_light_picker(IN(TargetSurface) surface, IN(CandidateRequest) request) {
+    LightPicker p;
+    p.position = surface.position;
+    p.normal = surface.normal;
+    p.sum = request.near_sum;
+    p.close = (request.needs & CANDIDATE_IS_CLOSE) != 0u;
+    p.near = p.sum > 0.0f ? constants.resampling.near_candidates : 0u;
     p.by_power = constants.resampling.light_candidates - p.near;
     return p;
 }

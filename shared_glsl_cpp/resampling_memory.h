@@ -10,8 +10,17 @@ SHARED_BEGIN
 
 CONST float BSDF_CANDIDATE_NEARBY = 0.125f;  // probability of looking for lamps close by
 CONST float BSDF_SHARE_LEAST = 0.125f;       // that a picked light point gives up where it is looked at and seen
-CONST uint CANDIDATE_SAMPLES_BSDF = 1u;      // what initial resampling still needs of a pixel once lights were picked
+CONST uint CANDIDATE_SAMPLES_BSDF = 1u;
 CONST uint CANDIDATE_TESTS_PICKED = 2u;
+CONST uint CANDIDATE_IS_CLOSE = 4u;
+
+/// What initial resampling still needs of a pixel once lights were picked, and what it knows by then.
+struct CandidateRequest {
+    uint pixel;      // its index
+    uint needs;      // CANDIDATE_SAMPLES_BSDF and CANDIDATE_TESTS_PICKED; neither: nothing. CANDIDATE_IS_CLOSE: as LightPicker has it
+    float near_sum;  // LightPicker::sum, for which it would have to look at all clusters again
+};
+ASSERT_SIZE(CandidateRequest, 12);
 
 /// A first vertex that waits to be shaded.
 struct FirstVertex {

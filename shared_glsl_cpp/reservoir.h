@@ -22,8 +22,9 @@ struct Reservoir {
     LightPoint point;
     float weight;      // W, per unit of uv measure; 0: a null sample
     float confidence;  // c, in initial samplings
+    float target;      // p̂ of the point, where the reservoir was made
 };
-ASSERT_SIZE(Reservoir, 20);
+ASSERT_SIZE(Reservoir, 24);
 
 FN LightPoint no_light_point() {
     LightPoint y;
@@ -37,6 +38,7 @@ FN Reservoir empty_reservoir() {
     r.point = no_light_point();
     r.weight = 0.0f;
     r.confidence = 0.0f;
+    r.target = 0.0f;
     return r;
 }
 
@@ -80,6 +82,7 @@ FN Reservoir end_resampling(IN(Resampling) s, float scale, float confidence) {
     r.weight = s.target > 0.0f ? scale * (s.weight_sum / s.target) : 0.0f;
     r.weight = MUTANT(RESERVOIR_CLAMPED, r.weight, min(r.weight, 1.0f));
     r.confidence = confidence;
+    r.target = s.target;
     if (!(r.weight > 0.0f && r.weight < INFINITE_DISTANCE)) {
         r.point = no_light_point();
         r.weight = 0.0f;

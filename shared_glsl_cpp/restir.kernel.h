@@ -14,7 +14,7 @@
 
 #include "candidates.kernel.h"
 #include "resampled_path.kernel.h"
-#include "reuse.kernel.h"
+#include "reuse_passes.kernel.h"
 
 /// The light point, if any, that a ray found; `direction` is the ray's.
 FN LightPoint light_point_of_hit(IN(Hit) hit, vec3 direction) {
@@ -71,18 +71,19 @@ FN float candidate_target(IN(FirstSurface) first, IN(TargetSurface) surface, IN(
 }
 
 /// Adds what sampling the material finds to what picking lights found.
-FN void add_bsdf_candidate(uvec2 pixel, uint needs, IN(ResamplingPass) pass) {
-    uint index = pixel_index(pixel);
+FN void add_bsdf_candidate(IN(CandidateRequest) request, IN(ResamplingPass) pass) {
+    uint index = request.pixel;
+    uvec2 pixel = uvec2(index % constants.size.x, index / constants.size.x);
     FirstVertex vertex = load_first_vertex(index);
     FirstSurface first = load_first_surface(pixel, pass, vertex.hit);
     TargetSurface surface = unpack_reuse_surface(first.packed);
-    LightPicker picker = begin_light_picker(surface);
+    LightPicker picker = resume_light_picker(surface, request);
     Reservoir picked = load_reservoir(pass.reservoirs, index);
     Resampling chosen = begin_resampling();
     if (picked.weight > 0.0f) {
         SeenLight light = see_light_point(picked.point, first.origin, MOMENT_CURRENT);
         float kept = 1.0f;
-        if ((needs & CANDIDATE_TESTS_PICKED) != 0u) {
+        if ((request.needs & CANDIDATE_TESTS_PICKED) != 0u) {
             vertex.rays += 1u;
             // Past stochastic alpha by a throw of its own: the target's is for the point, and would be asked twice.
             uint key = MUTANT(CANDIDATE_ALPHA_SHARED, ray_alpha_key(first.random, 0x40000001u), visibility_key(picked.point));
@@ -93,7 +94,7 @@ FN void add_bsdf_candidate(uvec2 pixel, uint needs, IN(ResamplingPass) pass) {
         float target = candidate_target(first, surface, light);
         add_candidate(chosen, picked.point, target, kept * target * picked.weight, 0.0f);
     }
-    if ((needs & CANDIDATE_SAMPLES_BSDF) != 0u) {
+    if ((request.needs & CANDIDATE_SAMPLES_BSDF) != 0u) {
         LightPointSample found = find_light_by_bsdf(first, picker, vertex.rays);
         if (found.pdf > 0.0f) {
             SeenLight light = see_light_point(found.point, first.origin, MOMENT_CURRENT);
@@ -133,116 +134,6 @@ FN void test_candidate(uvec2 pixel, IN(ResamplingPass) pass) {
         reservoir = empty_reservoir();
         reservoir.confidence = MUTANT(CULL_TAKES_CONFIDENCE, 1.0f, 0.0f);
         store_reservoir(pass.reservoirs, index, reservoir);
-    }
-}
-
-/// The first vertex's place a frame before.
-FN vec3 previous_position(vec3 position, IN(FirstVertex) vertex) {
-    if (!feature(FEATURE_MOTION)) {
-        return position;
-    }
-    LOCAL(Instance) instance = load_previous_instances(vertex.hit.instance);
-    Geometry g = load_geometries(instance.first_geometry + vertex.hit.geometry);
-    uvec3 triangle = load_triangles(g.first_triangle + vertex.hit.primitive);
-    vec3 a = load_positions(g.first_vertex + triangle.x);
-    vec3 b = load_positions(g.first_vertex + triangle.y);
-    vec3 c = load_positions(g.first_vertex + triangle.z);
-    return transform_point(instance, a + vertex.hit.barycentrics.x * (b - a) + vertex.hit.barycentrics.y * (c - a));
-}
-
-/// The square of pixels among which a pixel may reuse: its copy of the view, or the film.
-FN void reuse_bounds(uvec2 pixel, OUT(uvec2) first, OUT(uvec2) size) {
-    first = uvec2(0u, 0u);
-    size = constants.size;
-    if (constants.atlas_tile != 0u) {
-        first = uvec2(pixel.x - pixel.x % constants.atlas_tile, pixel.y - pixel.y % constants.atlas_tile);
-        size = uvec2(constants.atlas_tile, constants.atlas_tile);
-    }
-}
-
-FN bool is_inside(vec2 place, uvec2 size) {
-    return place.x >= 0.0f && place.y >= 0.0f && place.x < float(size.x) && place.y < float(size.y);
-}
-
-FN void reuse_temporal(uvec2 pixel, IN(ResamplingPass) pass) {
-    uint index = pixel_index(pixel);
-    ReuseSurface kept = load_reuse_surface(pass.surfaces, index);
-    if (!is_valid(kept) || pass.has_history == 0u) {
-        return;
-    }
-    FirstVertex vertex = load_first_vertex(index);
-    vec3 before = previous_position(kept.position, vertex);
-    uvec2 first;
-    uvec2 size;
-    reuse_bounds(pixel, first, size);
-    vec2 film;
-    bool ahead = camera_project(constants.previous_camera, before, film);
-    vec2 place = floor(vec2(film.x * float(size.x), film.y * float(size.y)));
-    if (!ahead || !is_inside(place, size)) {
-        return;
-    }
-    Neighborhood others;
-    others.count = 1u;
-    others.pixels[0] = pixel_index(uvec2(first.x + uint(place.x), first.y + uint(place.y)));
-    others.reservoir_set = pass.other_reservoirs;
-    others.surface_set = 1u - pass.surfaces;
-    others.moment = MUTANT(REUSE_CURRENT_LIGHTS, MOMENT_PREVIOUS, MOMENT_CURRENT);
-    others.confidence_cap = constants.resampling.confidence_cap;
-    ReuseSurface expected = kept;
-    expected.position = before;
-    ReuseSurface there = load_reuse_surface(others.surface_set, others.pixels[0]);
-    if (!is_similar(expected, there, constants.previous_camera.origin)) {
-        return;
-    }
-    Sampler random = make_sampler(pixel, pass.frame, constants.seed, constants.sampler_kind, constants.sample_count);
-    Reservoir merged = merge_reservoirs(unpack_reuse_surface(kept), load_reservoir(pass.reservoirs, index), others, random,
-                                        DIMENSION_TEMPORAL, vertex.rays);
-    store_reservoir(pass.reservoirs, index, merged);
-    if (target_has_visibility()) {
-        store_first_vertex(index, vertex);
-    }
-}
-
-FN void reuse_spatial(uvec2 pixel, IN(ResamplingPass) pass) {
-    uint index = pixel_index(pixel);
-    ReuseSurface kept = load_reuse_surface(pass.surfaces, index);
-    Reservoir own = load_reservoir(pass.reservoirs, index);
-    if (!is_valid(kept)) {
-        store_reservoir(pass.other_reservoirs, index, own);
-        return;
-    }
-    uvec2 first;
-    uvec2 size;
-    reuse_bounds(pixel, first, size);
-    vec2 center = vec2(float(pixel.x - first.x) + 0.5f, float(pixel.y - first.y) + 0.5f);
-    Sampler random = make_sampler(pixel, pass.frame, constants.seed, constants.sampler_kind, constants.sample_count);
-    uint dimension = MUTANT(PASSES_SHARE_SEED, pass.iteration, 0u) * (RESAMPLING_MAX_NEIGHBORS + 1u);
-    Neighborhood others;
-    others.count = 0u;
-    others.reservoir_set = pass.reservoirs;
-    others.surface_set = pass.surfaces;
-    others.moment = MOMENT_CURRENT;
-    others.confidence_cap = INFINITE_DISTANCE;
-    for (uint i = 0u; i < constants.resampling.neighbors; i++) {
-        uvec4 words = independent_words(random, DIMENSION_NEIGHBOR + dimension + i);
-        vec2 offset = sample_disk_concentric(vec2(unit_float(words.x), unit_float(words.y)));
-        vec2 place = floor(vec2(center.x + constants.resampling.radius * offset.x,
-                                center.y + constants.resampling.radius * offset.y));
-        if (!is_inside(place, size)) {
-            continue;
-        }
-        uint other = pixel_index(uvec2(first.x + uint(place.x), first.y + uint(place.y)));
-        if (other != index && is_similar(kept, load_reuse_surface(pass.surfaces, other), constants.camera.origin)) {
-            others.pixels[others.count] = other;
-            others.count += 1u;
-        }
-    }
-    FirstVertex vertex = load_first_vertex(index);
-    Reservoir merged = merge_reservoirs(unpack_reuse_surface(kept), own, others, random,
-                                        DIMENSION_NEIGHBOR_PICK + dimension, vertex.rays);
-    store_reservoir(pass.other_reservoirs, index, merged);
-    if (target_has_visibility()) {
-        store_first_vertex(index, vertex);
     }
 }
 

@@ -7,6 +7,7 @@
 #define REUSE_KERNEL_H
 
 #include "candidates.kernel.h"
+#include "target_visibility.kernel.h"
 
 /// Reservoirs to merge: pixels of one set, with the surfaces and the lights they were made for.
 struct Neighborhood {
@@ -18,53 +19,11 @@ struct Neighborhood {
     float confidence_cap;
 };
 
-FN bool target_has_visibility() {
-    return feature(FEATURE_TARGET_VISIBILITY) && constants.resampling.visibility == VISIBILITY_IN_TARGET;
-}
-
-/// Names the shadow rays to a light point: whether they pass stochastic alpha is a property of the point, the same for every surface.
-FN uint visibility_key(IN(LightPoint) y) {
-    if (!feature(FEATURE_ALPHA)) {
-        return 0u;
-    }
-    return pcg4d(uvec4(y.light, floatBitsToUint(y.uv.x), floatBitsToUint(y.uv.y), constants.seed)).x >> 1;
-}
-
-/// Whether the light point is hidden now from a ray of that key.
-FN bool is_light_hidden(vec3 origin, IN(SeenLight) light, uint alpha_key) {
-    vec3 direction = light.distant ? light.direction : light.end - origin;
-    return trace_any(origin, direction, light.distant ? INFINITE_DISTANCE : 0.9999f, alpha_key);
-}
-
-/// Whether it is to the target.
-FN bool is_light_occluded(vec3 origin, IN(SeenLight) light, IN(LightPoint) y, uint moment) {
-    if (feature(FEATURE_MOTION) && moment == MUTANT(REUSE_CURRENT_OCCLUDERS, MOMENT_PREVIOUS, NONE)) {
-        vec3 direction = light.distant ? light.direction : light.end - origin;
-        float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
-        return trace_any_previous(origin, direction, t_max, visibility_key(y));
-    }
-    return is_light_hidden(origin, light, visibility_key(y));
-}
-
 /// The target p̂ at a surface, per uv: as the lights and occluders of `moment` have it. Counts the rays it needs.
 FN float target_at(IN(TargetSurface) s, IN(LightPoint) y, uint moment, INOUT(uint) rays) {
     SeenLight light = see_light_point(y, s.position, moment);
     float target = unoccluded_target(s, light);
-    if (!(target > TARGET_MIN)) {
-        return 0.0f;
-    }
-    if (target_has_visibility()) {
-        rays += 1u;
-        return is_light_occluded(s.position, light, y, moment) ? 0.0f : target;
-    }
-    return target;
-}
-
-/// The target of a reservoir's own point at its own surface: where the target asks for visibility, a reservoir that is not null has
-/// been seen to have it.
-FN float own_target_at(IN(TargetSurface) s, IN(LightPoint) y, uint moment) {
-    float target = unoccluded_target(s, see_light_point(y, s.position, moment));
-    return target > TARGET_MIN ? target : 0.0f;
+    return target > TARGET_MIN && target_sees(s.position, light, y, moment, rays) ? target : 0.0f;
 }
 
 FN Reservoir neighbor_reservoir(IN(Neighborhood) others, uint i) {
@@ -93,19 +52,17 @@ FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, fl
         if (!(r.confidence > 0.0f)) {
             continue;
         }
-        TargetSurface surface = neighbor_surface(others, i);
         if (r.weight > 0.0f) {
             float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
             if (here > 0.0f) {
-                float there = own_target_at(surface, r.point, others.moment);
                 float share = MUTANT(REUSE_ONE_OVER_M,
-                                     pairwise_neighbor_share(r.confidence, there, own.confidence, here, others_confidence),
+                                     pairwise_neighbor_share(r.confidence, r.target, own.confidence, here, others_confidence),
                                      r.confidence / (others_confidence + own.confidence));
                 add_candidate(chosen, r.point, here, share * here * r.weight, pick_number(random, dimension, i));
             }
         }
         if (own_target > 0.0f) {
-            float there = target_at(surface, own.point, others.moment, rays);
+            float there = target_at(neighbor_surface(others, i), own.point, others.moment, rays);
             own_share += MUTANT(REUSE_ONE_OVER_M,
                                 pairwise_canonical_share(r.confidence, there, own.confidence, own_target, others_confidence),
                                 0.0f);
@@ -141,10 +98,9 @@ FN Reservoir merge_balance(IN(TargetSurface) own_surface, IN(Reservoir) own, flo
             continue;
         }
         float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
-        float there = own_target_at(neighbor_surface(others, i), r.point, others.moment);
         float total = total_at(r.point, own.confidence, here, others, true, rays);
-        if (here > 0.0f && there > 0.0f) {
-            add_candidate(chosen, r.point, here, r.confidence * there / total * here * r.weight,
+        if (here > 0.0f && r.target > 0.0f) {
+            add_candidate(chosen, r.point, here, r.confidence * r.target / total * here * r.weight,
                           pick_number(random, dimension, i));
         }
     }
@@ -192,10 +148,7 @@ FN Reservoir merge_reservoirs(IN(TargetSurface) own_surface, IN(Reservoir) own, 
     if (!(others_confidence > 0.0f)) {
         return own;
     }
-    float own_target = 0.0f;
-    if (own.weight > 0.0f) {
-        own_target = own_target_at(own_surface, own.point, MOMENT_CURRENT);
-    }
+    float own_target = own.weight > 0.0f ? own.target : 0.0f;
     if (constants.resampling.mis == RESAMPLING_PAIRWISE) {
         return merge_pairwise(own_surface, own, own_target, others, others_confidence, random, dimension, rays);
     }

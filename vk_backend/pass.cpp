@@ -33,4 +33,11 @@ void bind_pass(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline
     bind(commands, vk::PipelineBindPoint::eCompute, compute, layout, bindings, dispatch);
 }
 
+void compute_region(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& compute,
+                    const PipelineLayout& layout, const Bindings& bindings, const shared::Dispatch& dispatch) {
+    const auto groups = [](std::uint32_t pixels) { return (pixels + shared::REGION_SIDE - 1) / shared::REGION_SIDE; };
+    bind_pass(commands, compute, layout, bindings, dispatch);
+    commands.dispatch(groups(dispatch.region.x), groups(dispatch.region.y), 1);
+}
+
 }  // namespace diptych

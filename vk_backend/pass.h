@@ -26,4 +26,8 @@ void bind_pass(const vk::raii::CommandBuffer& commands, const TracePipeline& pip
 void bind_pass(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& compute, const PipelineLayout& layout,
                const Bindings& bindings, const shared::Dispatch& dispatch);
 
+/// Computes over the region of the slice that `dispatch` tells of, with a shader of region.glsl.
+void compute_region(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& compute,
+                    const PipelineLayout& layout, const Bindings& bindings, const shared::Dispatch& dispatch);
+
 }  // namespace diptych

@@ -178,16 +178,24 @@ const vk::raii::Pipeline& PathRenderer::compute_pipeline(Spirv shader) {
 }
 
 void PathRenderer::choose_pipelines() {
-    stages_.clear();
+    traced_.clear();
+    computed_.clear();
     candidates_ = CandidatePipelines();
+    const auto shader_of = [&](ResamplingStage stage) { return resampling_shader(stage, constants_); };
     if (resamples()) {
-        for (const ResamplingStage stage : {ResamplingStage::first_hits, ResamplingStage::temporal,
-                                            ResamplingStage::spatial, ResamplingStage::shadows}) {
+        for (const ResamplingStage stage : {ResamplingStage::first_hits, ResamplingStage::shadows}) {
             if (needs_stage(stage, constants_)) {
-                stages_[stage] = &pipeline(resampling_shader(stage));
+                traced_[stage] = &pipeline(shader_of(stage));
             }
         }
-        candidates_.picked = &compute_pipeline(resampling_shader(ResamplingStage::candidates));
+        for (const ResamplingStage stage : {ResamplingStage::temporal, ResamplingStage::spatial}) {
+            if (needs_stage(stage, constants_) && reuse_traces(constants_)) {
+                traced_[stage] = &pipeline(shader_of(stage));
+            } else if (needs_stage(stage, constants_)) {
+                computed_[stage] = &compute_pipeline(shader_of(stage));
+            }
+        }
+        candidates_.picked = &compute_pipeline(shader_of(ResamplingStage::candidates));
         if (constants_.resampling.bsdf_candidates != 0) {
             candidates_.bsdf = &pipeline(shader_binary("restir_bsdf_candidates.rgen"));
         }
@@ -195,7 +203,7 @@ void PathRenderer::choose_pipelines() {
             candidates_.shadows = &pipeline(shader_binary("restir_candidate_shadows.rgen"));
         }
     }
-    const Spirv begin = resamples() ? resampling_shader(ResamplingStage::shade) : shader_binary("wave_begin.comp");
+    const Spirv begin = resamples() ? shader_of(ResamplingStage::shade) : shader_binary("wave_begin.comp");
     wave_pipelines_ = {.begin = &compute_pipeline(begin), .begin_appends = resamples()};
     if (goes_in_waves()) {
         const bool samples_lights = (features_ & shared::FEATURE_LIGHT_SAMPLING) != 0;

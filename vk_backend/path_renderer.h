@@ -118,7 +118,8 @@ private:
     WavePipelines wave_pipelines_;
     WaveMemory waves_;
     std::shared_ptr<ResamplingMemory> resampling_;
-    std::map<ResamplingStage, const TracePipeline*> stages_;  // those that trace
+    std::map<ResamplingStage, const TracePipeline*> traced_;         // stages that are one pass, with rays
+    std::map<ResamplingStage, const vk::raii::Pipeline*> computed_;  // or without
     CandidatePipelines candidates_;
     ResamplingSchedule schedule_;
     ReservoirHook hook_;

@@ -51,10 +51,7 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
 }
 
 std::uint64_t PathRenderer::pixel_limit(ResamplingStage stage) const {
-    const std::uint64_t most_rays = gpu_->ray_tracing.maxRayDispatchInvocationCount;
-    return stage == ResamplingStage::shade        ? most_invocations
-           : stage == ResamplingStage::candidates ? std::min(most_invocations, most_rays)
-                                                  : most_rays;
+    return stage == ResamplingStage::shade ? most_invocations : gpu_->ray_tracing.maxRayDispatchInvocationCount;
 }
 
 void PathRenderer::record_stage(const vk::raii::CommandBuffer& commands, ResamplingStage stage, const Slice& slice,
@@ -64,8 +61,10 @@ void PathRenderer::record_stage(const vk::raii::CommandBuffer& commands, Resampl
         SliceWaves(wave_pipelines_, layout_, bindings_, waves_, slice, dispatch).begin(commands);
     } else if (stage == ResamplingStage::candidates) {
         record_candidates(commands, candidates_, layout_, bindings_, *resampling_, dispatch);
+    } else if (const auto found = computed_.find(stage); found != computed_.end()) {
+        compute_region(commands, *found->second, layout_, bindings_, dispatch);
     } else {
-        record_dispatch(commands, *stages_.at(stage), layout_, bindings_, dispatch, slice.region.width,
+        record_dispatch(commands, *traced_.at(stage), layout_, bindings_, dispatch, slice.region.width,
                         slice.region.height);
     }
 }

@@ -33,7 +33,7 @@ Bytes bytes_for(const shared::RenderConstants& constants) {
             .reservoirs = pixels * sets.reservoirs * sizeof(shared::Reservoir),
             .surfaces = pixels * sets.surfaces * sizeof(shared::ReuseSurface),
             .candidate_list = sets.first_vertices > 0 && constants.resampling.bsdf_candidates != 0
-                                  ? sizeof(empty_list) + pixels * sizeof(std::uint32_t)
+                                  ? sizeof(empty_list) + pixels * sizeof(shared::CandidateRequest)
                                   : 0};
 }
 
@@ -65,16 +65,20 @@ std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory) {
     return memory.first_vertices.size + memory.reservoirs.size + memory.surfaces.size + memory.candidate_list.size;
 }
 
-Spirv resampling_shader(ResamplingStage stage) {
+bool reuse_traces(const shared::RenderConstants& constants) {
+    return constants.resampling.visibility == shared::VISIBILITY_IN_TARGET;
+}
+
+Spirv resampling_shader(ResamplingStage stage, const shared::RenderConstants& constants) {
     switch (stage) {
     case ResamplingStage::first_hits:
         return shader_binary("restir_first_hits.rgen");
     case ResamplingStage::candidates:
         return shader_binary("restir_candidates.comp");
     case ResamplingStage::temporal:
-        return shader_binary("restir_temporal.rgen");
+        return shader_binary(reuse_traces(constants) ? "restir_temporal.rgen" : "restir_temporal.comp");
     case ResamplingStage::spatial:
-        return shader_binary("restir_spatial.rgen");
+        return shader_binary(reuse_traces(constants) ? "restir_spatial.rgen" : "restir_spatial.comp");
     case ResamplingStage::shadows:
         return shader_binary("restir_shadows.rgen");
     case ResamplingStage::shade:
@@ -90,8 +94,7 @@ void record_candidates(const vk::raii::CommandBuffer& commands, const CandidateP
         commands.updateBuffer<std::uint32_t>(*memory.candidate_list.handle, 0, empty_list);
         full_barrier(commands);
     }
-    bind_pass(commands, *pipelines.picked, layout, bindings, dispatch);
-    commands.dispatch(groups_for(std::uint64_t{dispatch.region.x} * dispatch.region.y), 1, 1);
+    compute_region(commands, *pipelines.picked, layout, bindings, dispatch);
     if (pipelines.bsdf != nullptr) {
         full_barrier(commands);
         bind_pass(commands, *pipelines.bsdf, layout, bindings, dispatch);

@@ -27,8 +27,11 @@ void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory)
 
 std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory);
 
-/// The ray generation shader of a stage; of candidates and shade, the compute shader with which they begin.
-Spirv resampling_shader(ResamplingStage stage);
+/// Whether reuse traces rays: its passes are compute shaders otherwise.
+bool reuse_traces(const shared::RenderConstants& constants);
+
+/// The shader with which a stage begins, a ray generation shader if it traces.
+Spirv resampling_shader(ResamplingStage stage, const shared::RenderConstants& constants);
 
 /// Pipelines of the stage of candidates, none of them owned.
 struct CandidatePipelines {

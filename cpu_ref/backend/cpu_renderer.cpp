@@ -203,8 +203,9 @@ private:
                         kernel.find_first_vertex(pixel, step.pass);
                         break;
                     case ResamplingStage::candidates:
-                        if (const std::uint32_t needs = kernel.resample_candidates(pixel, step.pass); needs != 0) {
-                            kernel.add_bsdf_candidate(pixel, needs, step.pass);
+                        if (const auto request = kernel.resample_candidates(pixel, step.pass);
+                            kernel.needs_rays(request)) {
+                            kernel.add_bsdf_candidate(request, step.pass);
                         }
                         if (tests_candidates(constants_)) {
                             kernel.test_candidate(pixel, step.pass);

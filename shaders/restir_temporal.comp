@@ -1,0 +1,14 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#define REUSE_WITHOUT_RAYS
+
+#include "region.glsl"
+#include "resampling_memory.glsl"
+#include "reuse_passes.kernel.h"
+
+void main() {
+    if (is_in_region()) {
+        reuse_temporal(region_pixel(), dispatch_block.value.pass);
+    }
+}

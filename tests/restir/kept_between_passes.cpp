@@ -1,0 +1,125 @@
+// What a pass hands on instead of having the next one work it out again is what that would come to.
+#include "backend/cpu_kernel.h"
+#include "chain_cases.h"
+
+namespace diptych::tests {
+namespace {
+
+/// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
+struct Tracer : PlainTracer {};
+using Kernel = shared::CpuKernel<Tracer, ~0U>;
+
+/// A chain's passes over a whole film, of which the test sees everything.
+struct Chain {
+    PackedScene packed;
+    EmbreeScene embree;
+    ResamplingFilms films;
+    Kernel kernel;
+    ResamplingSchedule schedule;
+
+    explicit Chain(const Scene& scene, const RenderSettings& settings)
+        : packed(pack_scene(scene, settings)), embree(packed),
+          films(packed.constants), kernel{packed, packed.constants, {{embree}}, &films}, schedule(packed.constants) {}
+
+    template <class Pass>
+    void for_pixels(Pass&& pass) {
+        for (std::uint32_t i = 0; i < films.pixels; ++i) {
+            pass(i, shared::uvec2(i % packed.constants.size.x, i / packed.constants.size.x));
+        }
+    }
+
+    /// All but the last two, which change no reservoir; `check` after each.
+    template <class Check>
+    void run_frame(std::uint32_t frame, Check&& check) {
+        for (const ResamplingStep& step : schedule.next_frame(frame)) {
+            for_pixels([&](std::uint32_t, shared::uvec2 pixel) {
+                switch (step.stage) {
+                case ResamplingStage::first_hits:
+                    kernel.find_first_vertex(pixel, step.pass);
+                    break;
+                case ResamplingStage::candidates:
+                    if (const auto request = kernel.resample_candidates(pixel, step.pass); kernel.needs_rays(request)) {
+                        kernel.add_bsdf_candidate(request, step.pass);
+                    }
+                    break;
+                case ResamplingStage::temporal:
+                    kernel.reuse_temporal(pixel, step.pass);
+                    break;
+                case ResamplingStage::spatial:
+                    kernel.reuse_spatial(pixel, step.pass);
+                    break;
+                case ResamplingStage::shadows:
+                case ResamplingStage::shade:
+                    break;
+                }
+            });
+            if (step.stage != ResamplingStage::first_hits) {
+                check(step);
+            }
+        }
+    }
+};
+
+RenderSettings settings_of(Integrator integrator) {
+    RenderSettings settings;
+    settings.width = 32;
+    settings.height = 24;
+    settings.integrator = integrator;
+    return settings;
+}
+
+}  // namespace
+
+TEST_CASE("A reservoir's target is that of its point at its surface, after every pass") {
+    const std::string name = GENERATE("many-lights", "veach-mis");
+    CAPTURE(name);
+    Chain chain(generated(name, 300), settings_of(Integrator::restir));
+    int checked = 0;
+    for (std::uint32_t frame = 0; frame < 3; ++frame) {
+        chain.run_frame(frame, [&](const ResamplingStep& step) {
+            int wrong = 0;
+            chain.for_pixels([&](std::uint32_t index, shared::uvec2) {
+                const auto kept = chain.kernel.load_reuse_surface(step.pass.surfaces, index);
+                const auto reservoir = chain.kernel.load_reservoir(resulting_set(step), index);
+                if (!shared::is_valid(kept) || !(reservoir.weight > 0)) {
+                    return;
+                }
+                const auto light = chain.kernel.see_light_point(reservoir.point, kept.position, shared::MOMENT_CURRENT);
+                const float target = chain.kernel.unoccluded_target(shared::unpack_reuse_surface(kept), light);
+                wrong += std::abs(reservoir.target - target) <= 1e-6F * target ? 0 : 1;
+                ++checked;
+            });
+            CAPTURE(frame, static_cast<int>(step.stage));
+            CHECK(wrong == 0);
+        });
+    }
+    CHECK(checked > 1000);
+}
+
+TEST_CASE("A picker that goes on from the sum over its clusters gives the densities of the one that made it") {
+    Chain chain(generated("many-lights", 300), settings_of(Integrator::ris));
+    const shared::ResamplingPass pass = chain.schedule.next_frame(0).front().pass;
+    int near = 0;
+    int differs = 0;
+    chain.for_pixels([&](std::uint32_t, shared::uvec2 pixel) {
+        chain.kernel.find_first_vertex(pixel, pass);
+        const auto request = chain.kernel.resample_candidates(pixel, pass);
+        const auto hit = chain.kernel.load_first_vertex(request.pixel).hit;
+        const auto first = chain.kernel.load_first_surface(pixel, pass, hit);
+        if (!first.takes_light) {
+            return;
+        }
+        const auto surface = shared::unpack_reuse_surface(first.packed);
+        const auto made = chain.kernel.begin_light_picker(surface);
+        const auto resumed = chain.kernel.resume_light_picker(surface, request);
+        near += made.near > 0 ? 1 : 0;
+        differs += made.close == resumed.close ? 0 : 1;
+        for (std::uint32_t id = 0; id < chain.packed.constants.light_count; id += 7) {
+            differs += chain.kernel.picks_of_light(made, id) == chain.kernel.picks_of_light(resumed, id) ? 0 : 1;
+        }
+    });
+    CHECK(near > 100);
+    CHECK(differs == 0);
+}
+
+}  // namespace diptych::tests
