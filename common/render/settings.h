@@ -25,7 +25,7 @@ struct ResamplingSettings {
     std::uint32_t spatial_passes = 1;
     std::uint32_t neighbors = 4;
     float radius = 16;  // pixels
-    float confidence_cap = 20;
+    float confidence_cap = 4;
     ResamplingMis mis = ResamplingMis::pairwise;
     ResamplingVisibility visibility = ResamplingVisibility::shading;
 };
