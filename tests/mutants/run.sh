@@ -62,7 +62,8 @@ run_gate() {
         0) if grep -q 'All tests passed' <<<"$output"; then outcome=pass; else outcome="no such test"; fi ;;
         77) outcome=skip ;;
         124) outcome="out of time" ;;
-        *) if grep -qE '^assertions:.* failed' <<<"$output"; then outcome=fail; else outcome="exit code $code"; fi ;;
+        # A mutant may also end the program, before or after the check that it fails: Catch then may not come to its sums.
+        *) if grep -qE '^assertions:.* failed|^with expansion:' <<<"$output"; then outcome=fail; else outcome="exit code $code"; fi ;;
     esac
 }
 

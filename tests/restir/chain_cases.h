@@ -31,6 +31,7 @@ inline ChainCase chain_case(const std::string& name, Scene scene) {
     c.settings.max_depth = 1;
     c.settings.resampling.neighbors = 3;
     c.settings.resampling.radius = 5;
+    c.settings.resampling.confidence_cap = 20;  // a long memory shows faults of reuse the more
     return c;
 }
 
