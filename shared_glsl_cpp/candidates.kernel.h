@@ -18,16 +18,20 @@ struct BsdfCandidate {
 
 /// Narrow lobes always, and as far as they reach: lights are seldom picked within them. Others now and then where emitters are close by: a
 /// point of those is picked for its area and not for being near, so seldom and with a weight as large as that is seldom. That it might be
-/// found by its solid angle bounds it where it is visible and about as bright as the scene's lamps are, and short rays are cheap.
+/// found by its solid angle bounds it where it is visible and about as bright as the scene's lamps are, and short rays are cheap. The bound
+/// is 1 / probability, and what comes near it is rarer the rougher the surface is.
 FN BsdfCandidate bsdf_candidate(IN(SurfaceBsdf) bsdf, IN(LightPicker) picker) {
     BsdfCandidate c;
     c.probability = 0.0f;
     c.reach = 0.0f;
     if (constants.resampling.bsdf_candidates != 0u) {
-        bool glossy = max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f;
-        bool narrow = glossy && bsdf.parameters.alpha < 0.1f && !bsdf_is_mirror(bsdf.parameters, features());
+        bool has_lobe = max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f &&
+                        !bsdf_is_mirror(bsdf.parameters, features());
+        bool narrow = has_lobe && bsdf.parameters.alpha < 0.1f;
+        bool glossy = has_lobe && bsdf.parameters.alpha < 0.5f;
+        float nearby = glossy ? BSDF_CANDIDATE_GLOSSY : BSDF_CANDIDATE_NEARBY;
         c.reach = narrow ? INFINITE_DISTANCE : light_reach();
-        c.probability = narrow ? 1.0f : (picker.close ? BSDF_CANDIDATE_NEARBY : 0.0f);
+        c.probability = narrow ? 1.0f : (picker.close ? nearby : 0.0f);
     }
     return c;
 }

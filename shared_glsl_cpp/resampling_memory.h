@@ -9,6 +9,7 @@
 SHARED_BEGIN
 
 CONST float BSDF_CANDIDATE_NEARBY = 0.125f;  // probability of looking for lamps close by
+CONST float BSDF_CANDIDATE_GLOSSY = 0.5f;    // the same on glossy surfaces
 CONST float BSDF_SHARE_LEAST = 0.125f;       // that a picked light point gives up where it is looked at and seen
 CONST uint CANDIDATE_SAMPLES_BSDF = 1u;
 CONST uint CANDIDATE_TESTS_PICKED = 2u;
