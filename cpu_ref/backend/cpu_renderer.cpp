@@ -8,6 +8,7 @@
 
 #include "backend/path_batch.h"
 #include "backend/path_recording.h"
+#include "backend/resampling_stages.h"
 #include "parallel.h"
 
 namespace diptych {
@@ -198,32 +199,11 @@ private:
             for_tiles([&](int tile_x, int tile_y) {
                 shared::CpuKernel<PlainTracer, ~0U> kernel{*packed_, constants_, {*scene_}, &reuse_};
                 for_pixels(film, tile_x, tile_y, [&](shared::uvec2 pixel, FilmEntry entry) {
-                    switch (step.stage) {
-                    case ResamplingStage::first_hits:
-                        kernel.find_first_vertex(pixel, step.pass);
-                        break;
-                    case ResamplingStage::candidates:
-                        if (const auto request = kernel.resample_candidates(pixel, step.pass);
-                            kernel.needs_rays(request)) {
-                            kernel.add_bsdf_candidate(request, step.pass);
-                        }
-                        if (tests_candidates(constants_)) {
-                            kernel.test_candidate(pixel, step.pass);
-                        }
-                        break;
-                    case ResamplingStage::temporal:
-                        kernel.reuse_temporal(pixel, step.pass);
-                        break;
-                    case ResamplingStage::spatial:
-                        kernel.reuse_spatial(pixel, step.pass);
-                        break;
-                    case ResamplingStage::shadows:
-                        kernel.trace_shadow_of_chosen(pixel, step.pass);
-                        break;
-                    case ResamplingStage::shade:
+                    if (step.stage == ResamplingStage::shade) {
                         kernel.add_path(kernel.shade_resampled(pixel, step.pass), entry.pixel, entry.moments,
                                         entry.first_hit);
-                        break;
+                    } else {
+                        run_stage(kernel, step, pixel);
                     }
                 });
             });

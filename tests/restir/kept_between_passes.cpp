@@ -1,5 +1,5 @@
 // What a pass hands on instead of having the next one work it out again is what that would come to.
-#include "backend/cpu_kernel.h"
+#include "backend/resampling_stages.h"
 #include "chain_cases.h"
 
 namespace diptych::tests {
@@ -28,31 +28,11 @@ struct Chain {
         }
     }
 
-    /// All but the last two, which change no reservoir; `check` after each.
+    /// All stages but shade; `check` after each that leaves reservoirs.
     template <class Check>
     void run_frame(std::uint32_t frame, Check&& check) {
         for (const ResamplingStep& step : schedule.next_frame(frame)) {
-            for_pixels([&](std::uint32_t, shared::uvec2 pixel) {
-                switch (step.stage) {
-                case ResamplingStage::first_hits:
-                    kernel.find_first_vertex(pixel, step.pass);
-                    break;
-                case ResamplingStage::candidates:
-                    if (const auto request = kernel.resample_candidates(pixel, step.pass); kernel.needs_rays(request)) {
-                        kernel.add_bsdf_candidate(request, step.pass);
-                    }
-                    break;
-                case ResamplingStage::temporal:
-                    kernel.reuse_temporal(pixel, step.pass);
-                    break;
-                case ResamplingStage::spatial:
-                    kernel.reuse_spatial(pixel, step.pass);
-                    break;
-                case ResamplingStage::shadows:
-                case ResamplingStage::shade:
-                    break;
-                }
-            });
+            for_pixels([&](std::uint32_t, shared::uvec2 pixel) { run_stage(kernel, step, pixel); });
             if (step.stage != ResamplingStage::first_hits) {
                 check(step);
             }
