@@ -1,11 +1,14 @@
 #include "embree_scene.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "error.h"
 #include "leaves.h"
+#include "pack/emitter_corners.h"
 #include "pack/packed_scene.h"
 
 namespace diptych {
@@ -110,6 +113,7 @@ EmbreeScene::EmbreeScene(const PackedScene& packed)
     if (packed.keeps_previous) {
         previous_ = build_root(packed);
     }
+    place_emitters(packed);
     check("build");
 }
 
@@ -211,12 +215,39 @@ void EmbreeScene::place_all(const PackedScene& packed, Root& root) {
     }
 }
 
+void EmbreeScene::place_emitters(const PackedScene& packed) {
+    const std::uint64_t revision = std::exchange(emitter_revision_, packed.revisions.emissive_triangles);
+    if (!searches_emitters(packed)) {
+        emitters_.reset();
+        return;
+    }
+    const bool known = revision != 0 && revision == emitter_revision_;
+    if (emitters_ && MUTANT(EMBREE_EMITTERS_STAY, known, true)) {
+        return;
+    }
+    const std::vector<shared::vec3> corners = emitter_corners(packed);
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
+                                             corners.size());
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
+                                            corners.size() / 3);
+    std::copy(corners.begin(), corners.end(), static_cast<glm::vec3*>(vertices));
+    std::iota(static_cast<std::uint32_t*>(indices), static_cast<std::uint32_t*>(indices) + corners.size(), 0U);
+    rtcCommitGeometry(geometry);
+    emitters_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(emitters_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcAttachGeometry(emitters_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(emitters_.get());
+}
+
 void EmbreeScene::move_to(const PackedScene& moment) {
     require_instances(moment);
     if (moment.keeps_previous) {
         std::swap(root_, previous_);
     }
     place_all(moment, root_);
+    place_emitters(moment);
     check("move");
 }
 
@@ -238,25 +269,39 @@ void EmbreeScene::reconfigure(const PackedScene& packed) {
     } else {
         previous_ = build_root(packed);
     }
+    place_emitters(packed);
     check("reconfigure");
 }
 
-EmbreeHit EmbreeScene::closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key,
-                               float t_max) const {
+namespace {
+
+EmbreeHit nearest(RTCScene scene, const glm::vec3& origin, const glm::vec3& direction, float t_max,
+                  std::uint32_t alpha_key) {
     RayContext context = make_context(alpha_key);
     RTCRayHit query;
     set_ray(query.ray, origin, direction, t_max);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.primID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if DIPTYCH_EMBREE_VERSION >= 4
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
     arguments.context = &context.base;
-    rtcIntersect1(root_.scene.get(), &query, &arguments);
+    rtcIntersect1(scene, &query, &arguments);
 #else
-    rtcIntersect1(root_.scene.get(), &context.base, &query);
+    rtcIntersect1(scene, &context.base, &query);
 #endif
     return {query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
+}
+
+}  // namespace
+
+EmbreeHit EmbreeScene::closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
+    return nearest(root_.scene.get(), origin, direction, std::numeric_limits<float>::infinity(), alpha_key);
+}
+
+EmbreeHit EmbreeScene::emitter(const glm::vec3& origin, const glm::vec3& direction, float t_max) const {
+    return nearest(emitters_.get(), origin, direction, t_max, 0);
 }
 
 bool EmbreeScene::any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {

@@ -11,7 +11,6 @@
 #include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <limits>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -39,8 +38,11 @@ public:
     explicit EmbreeScene(const PackedScene& packed);
 
     /// Nearest hit with t in (0, infinity).
-    EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key,
-                      float t_max = std::numeric_limits<float>::infinity()) const;
+    EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const;
+
+    /// Nearest hit in (0, t_max) among the emitters alone (emitter_corners.h), where the settings search them;
+    /// `primitive` is the light's id, ~0 on a miss.
+    EmbreeHit emitter(const glm::vec3& origin, const glm::vec3& direction, float t_max) const;
 
     /// Whether anything lies in (0, t_max).
     bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const;
@@ -88,6 +90,7 @@ private:
     Root build_root(const PackedScene& packed) const;
     void require_instances(const PackedScene& packed) const;
     static void place_all(const PackedScene& packed, Root& root);
+    void place_emitters(const PackedScene& packed);
     bool occluded(RTCScene root, const glm::vec3& origin, const glm::vec3& direction, float t_max,
                   std::uint32_t alpha_key) const;
     void check(const char* what) const;
@@ -97,6 +100,8 @@ private:
     std::vector<ScenePtr> meshes_;
     Root root_;
     Root previous_;
+    ScenePtr emitters_;
+    std::uint64_t emitter_revision_ = 0;
 };
 
 /// Embree's version as text, such as "3.13.5".

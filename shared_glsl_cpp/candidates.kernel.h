@@ -10,34 +10,34 @@ FN float unoccluded_target(IN(TargetSurface) s, IN(SeenLight) light) {
     return light.measure * luminance(target_reflectance(s, light.direction) * light.radiance);
 }
 
-/// How a surface's material is sampled for a candidate.
-struct BsdfCandidate {
-    float probability;
-    float reach;  // metres, along which it finds lights
+/// How a surface's material is sampled for candidates.
+struct BsdfCandidates {
+    float count;  // whole, or below 1 the probability of one
+    float reach;  // metres, along which they find lights
 };
 
-/// Narrow lobes always, and as far as they reach: lights are seldom picked within them. Others now and then where emitters are close by: a
-/// point of those is picked for its area and not for being near, so seldom and with a weight as large as that is seldom. That it might be
-/// found by its solid angle bounds it where it is visible and about as bright as the scene's lamps are, and short rays are cheap. The bound
-/// is 1 / probability, and what comes near it is rarer the rougher the surface is.
-FN BsdfCandidate bsdf_candidate(IN(SurfaceBsdf) bsdf, IN(LightPicker) picker) {
-    BsdfCandidate c;
-    c.probability = 0.0f;
+/// Narrow lobes more than once, and as far as they reach: lights are seldom picked within them, and nobody else looks for them. Others now
+/// and then where emitters are close by: a point of those is picked for its area and not for being near, so seldom and with a weight as
+/// large as that is seldom. That it might be found by its solid angle bounds it where it is visible and about as bright as the scene's lamps
+/// are, and short rays are cheap. The bound is 1 / count, and what comes near it is rarer the rougher the surface is.
+FN BsdfCandidates bsdf_candidates(IN(SurfaceBsdf) bsdf, IN(LightPicker) picker) {
+    BsdfCandidates c;
+    c.count = 0.0f;
     c.reach = 0.0f;
     if (constants.resampling.bsdf_candidates != 0u) {
         bool has_lobe = max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f &&
                         !bsdf_is_mirror(bsdf.parameters, features());
         bool narrow = has_lobe && bsdf.parameters.alpha < 0.1f;
         bool glossy = has_lobe && bsdf.parameters.alpha < 0.5f;
-        float nearby = glossy ? BSDF_CANDIDATE_GLOSSY : BSDF_CANDIDATE_NEARBY;
+        float nearby = glossy ? BSDF_CANDIDATES_GLOSSY : BSDF_CANDIDATES_NEARBY;
         c.reach = narrow ? INFINITE_DISTANCE : light_reach();
-        c.probability = narrow ? 1.0f : (picker.close ? nearby : 0.0f);
+        c.count = narrow ? float(BSDF_CANDIDATES_NARROW) : (picker.close ? nearby : 0.0f);
     }
     return c;
 }
 
 /// Whether material sampling could have found the light point.
-FN bool is_within(IN(BsdfCandidate) c, vec3 origin, IN(SeenLight) light) {
+FN bool is_within(IN(BsdfCandidates) c, vec3 origin, IN(SeenLight) light) {
     float distance = light.distant ? INFINITE_DISTANCE : length(light.end - origin);
     return light.by_chance && MUTANT(CANDIDATE_BEYOND_REACH, distance <= c.reach, true);
 }
@@ -75,15 +75,12 @@ FN FirstSurface load_first_surface(uvec2 pixel, IN(ResamplingPass) pass, IN(Hit)
     return first;
 }
 
-/// What light points are picked for: the surface as others see it, or, where none will, white paper. That has no narrow lobe which the true
-/// ones might miss, and costs nothing; most such surfaces look at the integrand once more when they sample their material.
+/// What light points are picked for: the surface as others see it, and, where none will, white paper behind it, lest the true lobes be where
+/// its narrow ones are not. Most such surfaces look at the integrand once more when they sample their material.
 FN TargetSurface picking_surface(IN(FirstSurface) first) {
     TargetSurface s = unpack_reuse_surface(first.packed);
     if (!first.reuses) {
-        s.diffuse = vec3(1.0f, 1.0f, 1.0f);
-        s.f0 = vec3(0.0f, 0.0f, 0.0f);
-        s.f90 = 0.0f;
-        s.alpha = 1.0f;
+        s.diffuse = s.diffuse + vec3(1.0f, 1.0f, 1.0f);
     }
     return s;
 }
@@ -118,35 +115,42 @@ FN Reservoir initial_reservoir(IN(Resampling) chosen) {
     return end_resampling(chosen, 1.0f, MUTANT(CONFIDENCE_BY_SAMPLE, 1.0f, clamp(chosen.target, 0.1f, 10.0f)));
 }
 
-/// How much of a picked point's weight, were it visible, the balance heuristic gives to sampling the material, which is done with
-/// probability q: r = q p_bsdf / (q p_bsdf + n p_pick).
-FN float bsdf_share(IN(FirstSurface) first, IN(LightPicker) picker, IN(LightPoint) picked, IN(SeenLight) light) {
-    BsdfCandidate c = bsdf_candidate(first.bsdf, picker);
-    if (!(c.probability > 0.0f) || !is_within(c, first.origin, light)) {
-        return 0.0f;
-    }
-    float pdf_bsdf = c.probability * light.measure * surface_bsdf_pdf(first.bsdf, first.wo, light.direction, features());
-    float pdf_picked = picks_of_light(picker, picked.light) * pdf_light_point(picked);
-    return pdf_bsdf / (pdf_bsdf + pdf_picked);
+/// The target of what is chosen in the end: the one that others can evaluate, or, where none will, the integrand itself.
+FN float candidate_target(IN(FirstSurface) first, IN(SeenLight) light, vec3 f) {
+    return first.reuses ? unoccluded_target(unpack_reuse_surface(first.packed), light)
+                        : light.measure * luminance(f * light.radiance);
 }
 
-/// A picked point keeps 1 - V r, as the material's sampling finds only what is visible (V). Where r is small it seldom pays to look: with
-/// probability s = min(1, r / BSDF_SHARE_LEAST) the point is looked at, and keeps 1 - r / s where it is seen, which comes to the same.
-/// What is not looked at has r < BSDF_SHARE_LEAST.
-FN uint bsdf_candidate_needs(IN(FirstSurface) first, IN(LightPicker) picker, IN(Reservoir) picked) {
-    float q = bsdf_candidate(first.bsdf, picker).probability;
-    uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
-    uint needs = unit_float(pick.y) < q ? CANDIDATE_SAMPLES_BSDF : 0u;
-    if (q > 0.0f && picked.weight > 0.0f) {
-        SeenLight light = see_light_point(picked.point, first.origin, MOMENT_CURRENT);
-        float r = bsdf_share(first, picker, picked.point, light);
-        needs |= unit_float(pick.z) * BSDF_SHARE_LEAST < r ? CANDIDATE_TESTS_PICKED : 0u;
+/// What was picked, less what the balance heuristic gives to sampling the material, which is done q times: it keeps
+/// n p_pick / (q p_bsdf + n p_pick). Whether the point is seen does not matter. If it is, sampling the material may find it, as no emitter
+/// is before it; if it is not, it weighs nothing in the end.
+FN Reservoir share_with_material(IN(FirstSurface) first, IN(LightPicker) picker, IN(BsdfCandidates) c,
+                                 IN(Reservoir) picked) {
+    if (!(c.count > 0.0f) || !(picked.weight > 0.0f)) {
+        return picked;
     }
-    return needs;
+    SeenLight light = see_light_point(picked.point, first.origin, MOMENT_CURRENT);
+    BsdfValue value = surface_bsdf_eval_pdf(first.bsdf, first.wo, light.direction, features());
+    float kept = 1.0f;
+    if (is_within(c, first.origin, light)) {
+        float pdf_bsdf = c.count * light.measure * value.pdf;
+        float pdf_picked = picks_of_light(picker, picked.point.light) * pdf_light_point(picked.point);
+        kept = MUTANT(PICKED_KEEPS_ALL, pdf_picked / (pdf_bsdf + pdf_picked), 1.0f);
+    }
+    float target = candidate_target(first, light, value.value);
+    Resampling chosen = begin_resampling();
+    add_candidate(chosen, picked.point, target, kept * target * picked.weight, 0.0f);
+    return initial_reservoir(chosen);
+}
+
+/// How often the material is to be sampled.
+FN uint bsdf_candidate_needs(IN(FirstSurface) first, IN(BsdfCandidates) c) {
+    uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
+    return (unit_float(pick.y) < c.count ? CANDIDATE_SAMPLES_BSDF : 0u) | (c.count > 1.0f ? CANDIDATE_IS_NARROW : 0u);
 }
 
 FN bool needs_rays(IN(CandidateRequest) r) {
-    return (r.needs & (CANDIDATE_SAMPLES_BSDF | CANDIDATE_TESTS_PICKED)) != 0u;
+    return (r.needs & CANDIDATE_SAMPLES_BSDF) != 0u;
 }
 
 /// The reservoir, for now, and the surface for others. Returns what add_bsdf_candidate has to do, if anything.
@@ -165,8 +169,10 @@ FN CandidateRequest resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
         store_first_vertex(index, vertex);
         TargetSurface surface = picking_surface(first);
         LightPicker picker = begin_light_picker(surface);
-        reservoir = initial_reservoir(resample_lights(surface, picker, first.random));
-        request.needs = bsdf_candidate_needs(first, picker, reservoir) | (picker.close ? CANDIDATE_IS_CLOSE : 0u);
+        BsdfCandidates c = bsdf_candidates(first.bsdf, picker);
+        Reservoir picked = initial_reservoir(resample_lights(surface, picker, first.random));
+        reservoir = share_with_material(first, picker, c, picked);
+        request.needs = bsdf_candidate_needs(first, c) | (picker.close ? CANDIDATE_IS_CLOSE : 0u);
         request.near_sum = picker.sum;
         if (first.reuses) {
             kept = first.packed;

@@ -8,17 +8,17 @@
 
 SHARED_BEGIN
 
-CONST float BSDF_CANDIDATE_NEARBY = 0.125f;  // probability of looking for lamps close by
-CONST float BSDF_CANDIDATE_GLOSSY = 0.5f;    // the same on glossy surfaces
-CONST float BSDF_SHARE_LEAST = 0.125f;       // that a picked light point gives up where it is looked at and seen
+CONST uint BSDF_CANDIDATES_NARROW = 2u;       // a pixel and frame, on narrow lobes
+CONST float BSDF_CANDIDATES_GLOSSY = 1.0f;    // on glossy surfaces with lamps close by; below 1 it is a probability
+CONST float BSDF_CANDIDATES_NEARBY = 0.125f;  // on others with lamps close by
 CONST uint CANDIDATE_SAMPLES_BSDF = 1u;
-CONST uint CANDIDATE_TESTS_PICKED = 2u;
+CONST uint CANDIDATE_IS_NARROW = 2u;
 CONST uint CANDIDATE_IS_CLOSE = 4u;
 
 /// What initial resampling still needs of a pixel once lights were picked, and what it knows by then.
 struct CandidateRequest {
     uint pixel;      // its index
-    uint needs;      // CANDIDATE_SAMPLES_BSDF and CANDIDATE_TESTS_PICKED; neither: nothing. CANDIDATE_IS_CLOSE: as LightPicker has it
+    uint needs;      // CANDIDATE_SAMPLES_BSDF, or nothing; IS_NARROW: BSDF_CANDIDATES_NARROW times; IS_CLOSE: as LightPicker has it
     float near_sum;  // LightPicker::sum, for which it would have to look at all clusters again
 };
 ASSERT_SIZE(CandidateRequest, 12);
@@ -38,7 +38,7 @@ struct ResamplingPass {
     uint other_reservoirs;  // temporal: set of the frame before's; spatial: where the results go
     uint surfaces;          // set of this frame's
     uint has_history;       // 0: there is no frame before
-    uint iteration;         // of the spatial pass
+    uint iteration;         // of the spatial pass, and of sampling the material
 };
 ASSERT_SIZE(ResamplingPass, 24);
 

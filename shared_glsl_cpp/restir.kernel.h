@@ -16,95 +16,58 @@
 #include "resampled_path.kernel.h"
 #include "reuse_passes.kernel.h"
 
-/// The light point, if any, that a ray found; `direction` is the ray's.
-FN LightPoint light_point_of_hit(IN(Hit) hit, vec3 direction) {
-    LightPoint y = no_light_point();
-    if (hit.instance == NONE) {
-        y.light = constants.emissive_triangle_count + constants.punctual_light_count;
-        y.uv = direction_uv(direction);
-        return y;
-    }
-    uint slot = load_instances(hit.instance).first_emitter_slot;
-    if (feature(FEATURE_EMISSIVE) && slot != NONE) {
-        uint first = load_emitter_slots(slot + hit.geometry);
-        if (first != NONE) {
-            y.light = first + hit.primitive;
-            y.uv = hit.barycentrics;
-        }
-    }
-    return y;
-}
-
-/// What sampling the material finds, if anything, with the density of finding it so.
-FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) picker, INOUT(uint) rays) {
+/// What sampling the material finds, if anything, with the density of finding it so, all times together: the nearest emitter or, where there
+/// is none, the environment, whatever else is before it. `i`: which time.
+FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) picker, uint i, INOUT(uint) rays) {
     LightPointSample found;
     found.point = no_light_point();
     found.pdf = 0.0f;
-    uvec4 words = independent_words(first.random, DIMENSION_BSDF_CANDIDATE);
+    uvec4 words = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 2u * i);
     BsdfSample next = surface_bsdf_sample(first.bsdf, first.wo, vec2(unit_float(words.x), unit_float(words.y)),
                                           vec2(unit_float(words.z), unit_float(words.w)), features());
     if (!(next.pdf > 0.0f) || next.delta != 0u) {
         return found;
     }
-    rays += 1u;
-    BsdfCandidate c = bsdf_candidate(first.bsdf, picker);
-    Hit hit = trace_within(first.origin, next.direction, c.reach, ray_alpha_key(first.random, 0x40000000u));
-    if (hit.instance == NONE && c.reach < INFINITE_DISTANCE) {
-        return found;
+    BsdfCandidates c = bsdf_candidates(first.bsdf, picker);
+    if (feature(FEATURE_EMISSIVE)) {
+        rays += 1u;
+        found.point = trace_emitters(first.origin, next.direction, c.reach);
     }
-    LightPoint y = light_point_of_hit(hit, next.direction);
-    if (y.light < constants.light_count) {
-        SeenLight light = see_light_point(y, first.origin, MOMENT_CURRENT);
-        found.point = y;
-        found.pdf = is_within(c, first.origin, light) ? c.probability * next.pdf * light.measure : 0.0f;
+    if (found.point.light == NONE && !(c.reach < INFINITE_DISTANCE)) {
+        found.point.light = constants.emissive_triangle_count + constants.punctual_light_count;
+        found.point.uv = direction_uv(next.direction);
+    }
+    if (found.point.light < constants.light_count) {
+        SeenLight light = see_light_point(found.point, first.origin, MOMENT_CURRENT);
+        found.pdf = is_within(c, first.origin, light) ? c.count * next.pdf * light.measure : 0.0f;
     }
     return found;
 }
 
-/// The target of what is chosen in the end: the one that others can evaluate, or, where none will, the integrand itself.
-FN float candidate_target(IN(FirstSurface) first, IN(TargetSurface) surface, IN(SeenLight) light) {
-    if (first.reuses || !(light.measure > 0.0f)) {
-        return unoccluded_target(surface, light);
-    }
-    vec3 f = surface_bsdf_eval(first.bsdf, first.wo, light.direction, features());
-    return light.measure * luminance(f * light.radiance);
-}
-
-/// Adds what sampling the material finds to what picking lights found.
+/// Adds what sampling the material finds to what there is, once an iteration of the pass.
 FN void add_bsdf_candidate(IN(CandidateRequest) request, IN(ResamplingPass) pass) {
+    if (pass.iteration > 0u && (request.needs & CANDIDATE_IS_NARROW) == 0u) {
+        return;
+    }
     uint index = request.pixel;
     uvec2 pixel = uvec2(index % constants.size.x, index / constants.size.x);
     FirstVertex vertex = load_first_vertex(index);
     FirstSurface first = load_first_surface(pixel, pass, vertex.hit);
-    TargetSurface surface = unpack_reuse_surface(first.packed);
-    LightPicker picker = resume_light_picker(surface, request);
-    Reservoir picked = load_reservoir(pass.reservoirs, index);
-    Resampling chosen = begin_resampling();
-    if (picked.weight > 0.0f) {
-        SeenLight light = see_light_point(picked.point, first.origin, MOMENT_CURRENT);
-        float kept = 1.0f;
-        if ((request.needs & CANDIDATE_TESTS_PICKED) != 0u) {
-            vertex.rays += 1u;
-            // Past stochastic alpha by a throw of its own: the target's is for the point, and would be asked twice.
-            uint key = MUTANT(CANDIDATE_ALPHA_SHARED, ray_alpha_key(first.random, 0x40000001u), visibility_key(picked.point));
-            bool seen = MUTANT(BSDF_CANDIDATE_BLIND, !is_light_hidden(first.origin, light, key), true);
-            float share = bsdf_share(first, picker, picked.point, light);
-            kept -= seen ? MUTANT(CANDIDATE_SHARE_UNDIVIDED, max(share, BSDF_SHARE_LEAST), share) : 0.0f;
-        }
-        float target = candidate_target(first, surface, light);
-        add_candidate(chosen, picked.point, target, kept * target * picked.weight, 0.0f);
-    }
-    if ((request.needs & CANDIDATE_SAMPLES_BSDF) != 0u) {
-        LightPointSample found = find_light_by_bsdf(first, picker, vertex.rays);
-        if (found.pdf > 0.0f) {
-            SeenLight light = see_light_point(found.point, first.origin, MOMENT_CURRENT);
-            float target = candidate_target(first, surface, light);
-            float pdf_picked = picks_of_light(picker, found.point.light) * pdf_light_point(found.point);
-            uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
-            add_candidate(chosen, found.point, target, target / (found.pdf + pdf_picked), unit_float(pick.x));
-        }
-    }
+    LightPicker picker = resume_light_picker(unpack_reuse_surface(first.packed), request);
+    LightPointSample found = find_light_by_bsdf(first, picker, pass.iteration, vertex.rays);
     store_first_vertex(index, vertex);
+    if (!(found.pdf > 0.0f)) {
+        return;
+    }
+    SeenLight light = see_light_point(found.point, first.origin, MOMENT_CURRENT);
+    vec3 f = surface_bsdf_eval(first.bsdf, first.wo, light.direction, features());
+    float target = candidate_target(first, light, f);
+    float pdf_picked = picks_of_light(picker, found.point.light) * pdf_light_point(found.point);
+    uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 2u * pass.iteration + 1u);
+    Reservoir before = load_reservoir(pass.reservoirs, index);
+    Resampling chosen = begin_resampling();
+    add_candidate(chosen, before.point, before.target, before.target * before.weight, 0.0f);
+    add_candidate(chosen, found.point, target, target / (found.pdf + pdf_picked), unit_float(pick.x));
     store_reservoir(pass.reservoirs, index, initial_reservoir(chosen));
 }
 

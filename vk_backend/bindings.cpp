@@ -9,12 +9,12 @@ namespace {
 
 constexpr std::uint32_t structure_binding = 0;
 constexpr std::uint32_t previous_binding = 3;
+constexpr std::uint32_t emitters_binding = 4;
 
 }  // namespace
 
-Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::AccelerationStructureKHR structure,
-                       vk::AccelerationStructureKHR previous, const SceneAddresses& addresses,
-                       const shared::RenderConstants& constants) {
+Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, const Structures& structures,
+                       const SceneAddresses& addresses, const shared::RenderConstants& constants) {
     using Type = vk::DescriptorType;
     Bindings made;
     Uploader uploader(gpu, 4096);
@@ -24,7 +24,7 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
     uploader.finish();
 
     const std::array<vk::DescriptorPoolSize, 2> sizes = {
-        {{.type = Type::eAccelerationStructureKHR, .descriptorCount = 2},
+        {{.type = Type::eAccelerationStructureKHR, .descriptorCount = 3},
          {.type = Type::eUniformBuffer, .descriptorCount = 2}}};
     vk::DescriptorPoolCreateInfo pool{.maxSets = 1};
     pool.setPoolSizes(sizes);
@@ -48,16 +48,17 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::Acceler
          .pBufferInfo = &constants_info},
     }};
     gpu.device.updateDescriptorSets(writes, {});
-    replace_structures(gpu, made, structure, previous);
+    replace_structures(gpu, made, structures);
     return made;
 }
 
-void replace_structures(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure,
-                        vk::AccelerationStructureKHR previous) {
+void replace_structures(const Gpu& gpu, const Bindings& bindings, const Structures& structures) {
     for (const auto& [binding, handle] :
-         {std::pair(structure_binding, structure), std::pair(previous_binding, previous)}) {
+         {std::pair(structure_binding, structures.scene), std::pair(previous_binding, structures.previous),
+          std::pair(emitters_binding, structures.emitters)}) {
+        const vk::AccelerationStructureKHR present = handle ? handle : structures.scene;
         vk::WriteDescriptorSetAccelerationStructureKHR handles;
-        handles.setAccelerationStructures(handle);
+        handles.setAccelerationStructures(present);
         const vk::WriteDescriptorSet write{.pNext = &handles,
                                            .dstSet = bindings.set,
                                            .dstBinding = binding,

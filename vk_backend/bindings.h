@@ -15,18 +15,22 @@ struct Bindings {
     vk::DescriptorSet set;  // the pool's
 };
 
-/// `previous`: of the moment before; the same where there is none.
-Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, vk::AccelerationStructureKHR structure,
-                       vk::AccelerationStructureKHR previous, const SceneAddresses& addresses,
-                       const shared::RenderConstants& constants);
+/// Top-level structures; where a scene or its settings lack one of the others, the first stands in for it.
+struct Structures {
+    vk::AccelerationStructureKHR scene;
+    vk::AccelerationStructureKHR previous = nullptr;  // of the moment before
+    vk::AccelerationStructureKHR emitters = nullptr;
+};
+
+Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, const Structures& structures,
+                       const SceneAddresses& addresses, const shared::RenderConstants& constants);
 
 /// Records that others take the place of the addresses and constants that it was made with. The command carries the
 /// bytes: a view does this in every frame, and memory for staging is dear to allocate.
 void record_values(const vk::raii::CommandBuffer& commands, const Bindings& bindings, const SceneAddresses& addresses,
                    const shared::RenderConstants& constants);
 
-/// Other top-level structures take their places. Nothing that reads the set may be in flight.
-void replace_structures(const Gpu& gpu, const Bindings& bindings, vk::AccelerationStructureKHR structure,
-                        vk::AccelerationStructureKHR previous);
+/// Other structures take their places. Nothing that reads the set may be in flight.
+void replace_structures(const Gpu& gpu, const Bindings& bindings, const Structures& structures);
 
 }  // namespace diptych

@@ -38,7 +38,7 @@ void PathRenderer::reconfigure(const PackedScene& packed) {
     const Clock::time_point compile_start = Clock::now();
     in_context("setting up pipelines", [&] {
         choose_pipelines();
-        bind(packed);
+        bind();
     });
     costs_.compile_seconds += seconds_since(compile_start);
     schedule_ = ResamplingSchedule(constants_);
@@ -54,6 +54,7 @@ void PathRenderer::replace_structures_of(const PackedScene& packed) {
         return;
     }
     move_top_level(*gpu_, packed, bottom_, top_);
+    move_emitters(*gpu_, packed, emitters_);
     if (!packed.keeps_previous) {
         const TopLevel gone = std::exchange(previous_top_, TopLevel());
     } else if (previous_top_.storage.size == 0) {

@@ -37,7 +37,7 @@ void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& 
     all.path_queries = list.address;
     all.path_vertices = vertices.address;
     all.path_summaries = summaries.address;
-    const Bindings bindings = make_bindings(*gpu_, layout_, *top_.structure, *top_.structure, all, constants);
+    const Bindings bindings = make_bindings(*gpu_, layout_, {.scene = *top_.structure}, all, constants);
     TimedQueue queue(*gpu_, [&](std::uint64_t work, double seconds) { recording_speed_->learn(work, seconds); });
     for (std::uint64_t first = 0; first < queries.size();) {
         const std::uint64_t limit = gpu_->ray_tracing.maxRayDispatchInvocationCount;

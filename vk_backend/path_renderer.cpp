@@ -72,7 +72,7 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
     in_context("setting up pipelines", [&] {
         layout_ = make_pipeline_layout(*gpu_);
         choose_pipelines();
-        bind(packed);
+        bind();
         queue_ = std::make_unique<TimedQueue>(
             *gpu_, [this](std::uint64_t work, double seconds) { speed_.learn(work, seconds); });
     });
@@ -83,11 +83,12 @@ void PathRenderer::build_structures(const PackedScene& packed) {
     bottom_ = build_bottom_levels(*gpu_, packed, scene_, chosen_groups(*gpu_, packed, changes_.grouping));
     top_ = build_top_level(*gpu_, packed, bottom_);
     previous_top_ = packed.keeps_previous ? build_top_level(*gpu_, packed, bottom_) : TopLevel();
+    emitters_ = build_emitters(*gpu_, packed);
 }
 
 void PathRenderer::count_bytes() {
-    costs_.acceleration_bytes =
-        bottom_.bytes + bottom_.grouped_geometries.size + top_.storage.size + previous_top_.storage.size;
+    costs_.acceleration_bytes = bottom_.bytes + bottom_.grouped_geometries.size + top_.storage.size +
+                                previous_top_.storage.size + emitter_bytes(emitters_);
     costs_.pass_bytes = resampling_memory_bytes(*resampling_) + wave_memory_bytes(waves_);
     costs_.bytes =
         scene_bytes(scene_) + costs_.acceleration_bytes + films_.size() * film_bytes(*film_) + costs_.pass_bytes;
@@ -214,9 +215,12 @@ void PathRenderer::choose_pipelines() {
     }
 }
 
-void PathRenderer::bind(const PackedScene& packed) {
-    const TopLevel& previous = packed.keeps_previous ? previous_top_ : top_;
-    bindings_ = make_bindings(*gpu_, layout_, *top_.structure, *previous.structure, addresses(*film_), constants_);
+Structures PathRenderer::structures() const {
+    return {.scene = *top_.structure, .previous = *previous_top_.structure, .emitters = *emitters_.top};
+}
+
+void PathRenderer::bind() {
+    bindings_ = make_bindings(*gpu_, layout_, structures(), addresses(*film_), constants_);
     if (!resamples()) {
         warm_up();
     }
@@ -279,8 +283,9 @@ void PathRenderer::move_to(const PackedScene& moment) {
             std::swap(top_, previous_top_);
         }
         move_top_level(*gpu_, moment, bottom_, top_);
+        move_emitters(*gpu_, moment, emitters_);
         if (moment.keeps_previous) {
-            replace_structures(*gpu_, bindings_, *top_.structure, *previous_top_.structure);
+            replace_structures(*gpu_, bindings_, structures());
         }
         const std::uint32_t seed = constants_.seed;
         constants_ = moment.constants;

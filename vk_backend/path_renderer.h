@@ -11,6 +11,7 @@
 #include "acceleration.h"
 #include "bindings.h"
 #include "device_film.h"
+#include "emitter_structure.h"
 #include "film_memory.h"
 #include "path_waves.h"
 #include "pipeline.h"
@@ -71,7 +72,8 @@ private:
     const TracePipeline& pipeline(Spirv ray_generation);
     const vk::raii::Pipeline& compute_pipeline(Spirv shader);
     void choose_pipelines();
-    void bind(const PackedScene& packed);
+    Structures structures() const;
+    void bind();
     void require_bound() const;
     void build_structures(const PackedScene& packed);
     void replace_structures_of(const PackedScene& packed);
@@ -105,7 +107,8 @@ private:
     SceneMemory scene_;
     BottomLevels bottom_;
     TopLevel top_;
-    TopLevel previous_top_;            // of the moment before, where PackedScene::keeps_previous
+    TopLevel previous_top_;  // of the moment before, where PackedScene::keeps_previous
+    EmitterStructure emitters_;
     std::unique_ptr<Uploader> mover_;  // made at the first move
     std::vector<std::shared_ptr<FilmMemory>>
         films_;  // of the present size and layers; one is film_, the others may be looked at

@@ -83,7 +83,7 @@ void fill_table(const Gpu& gpu, TracePipeline& built) {
 
 PipelineLayout make_pipeline_layout(const Gpu& gpu) {
     using Type = vk::DescriptorType;
-    const std::array<vk::DescriptorSetLayoutBinding, 4> bindings = {{
+    const std::array<vk::DescriptorSetLayoutBinding, 5> bindings = {{
         {.binding = 0,
          .descriptorType = Type::eAccelerationStructureKHR,
          .descriptorCount = 1,
@@ -91,6 +91,10 @@ PipelineLayout make_pipeline_layout(const Gpu& gpu) {
         {.binding = 1, .descriptorType = Type::eUniformBuffer, .descriptorCount = 1, .stageFlags = reading_stages},
         {.binding = 2, .descriptorType = Type::eUniformBuffer, .descriptorCount = 1, .stageFlags = reading_stages},
         {.binding = 3,
+         .descriptorType = Type::eAccelerationStructureKHR,
+         .descriptorCount = 1,
+         .stageFlags = Stage::eRaygenKHR},
+        {.binding = 4,
          .descriptorType = Type::eAccelerationStructureKHR,
          .descriptorCount = 1,
          .stageFlags = Stage::eRaygenKHR},

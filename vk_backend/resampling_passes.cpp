@@ -96,9 +96,13 @@ void record_candidates(const vk::raii::CommandBuffer& commands, const CandidateP
     }
     compute_region(commands, *pipelines.picked, layout, bindings, dispatch);
     if (pipelines.bsdf != nullptr) {
-        full_barrier(commands);
-        bind_pass(commands, *pipelines.bsdf, layout, bindings, dispatch);
-        trace_indirect(commands, *pipelines.bsdf, memory.candidate_list.address);
+        shared::Dispatch again = dispatch;
+        for (std::uint32_t i = 0; i < shared::BSDF_CANDIDATES_NARROW; ++i) {
+            again.pass.iteration = i;
+            full_barrier(commands);
+            bind_pass(commands, *pipelines.bsdf, layout, bindings, again);
+            trace_indirect(commands, *pipelines.bsdf, memory.candidate_list.address);
+        }
     }
     if (pipelines.shadows != nullptr) {
         full_barrier(commands);

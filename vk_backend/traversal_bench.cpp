@@ -94,7 +94,7 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
             SceneAddresses all = addresses(film);
             all.recorded_rays = memory.rays.address;
             all.ray_counters = memory.counters.address;
-            return make_bindings(*gpu_, layout_, *top_.structure, *top_.structure, all, constants_);
+            return make_bindings(*gpu_, layout_, {.scene = *top_.structure}, all, constants_);
         };
         SpeedEstimate speed(dispatch_seconds_);  // of this integrator, for all runs
         const auto integrate = [&](const WavePipelines& pipelines, const Bindings& bindings, const Block& block,

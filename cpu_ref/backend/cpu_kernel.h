@@ -28,8 +28,8 @@ struct PlainTracer {
     EmbreeHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t alpha_key) const {
         return scene.closest(origin, direction, alpha_key);
     }
-    EmbreeHit within(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
-        return scene.closest(origin, direction, alpha_key, t_max);
+    EmbreeHit emitter(const glm::vec3& origin, const glm::vec3& direction, float t_max) const {
+        return scene.emitter(origin, direction, t_max);
     }
     bool any(const glm::vec3& origin, const glm::vec3& direction, float t_max, std::uint32_t alpha_key) const {
         return scene.any(origin, direction, t_max, alpha_key);
@@ -99,8 +99,9 @@ struct CpuKernel {
     Hit trace_closest(vec3 origin, vec3 direction, uint alpha_key) const {
         return hit_of(tracer.closest(origin, direction, alpha_key));
     }
-    Hit trace_within(vec3 origin, vec3 direction, float t_max, uint alpha_key) const {
-        return hit_of(tracer.within(origin, direction, t_max, alpha_key));
+    LightPoint trace_emitters(vec3 origin, vec3 direction, float t_max) const {
+        const EmbreeHit h = tracer.emitter(origin, direction, t_max);
+        return {h.primitive, vec2(h.u, h.v)};
     }
     static Hit hit_of(const EmbreeHit& h) {
         return {h.instance, h.geometry, h.primitive, vec2(h.u, h.v), h.t};

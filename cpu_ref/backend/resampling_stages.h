@@ -14,7 +14,10 @@ void run_stage(Kernel& kernel, const ResamplingStep& step, shared::uvec2 pixel) 
         break;
     case ResamplingStage::candidates:
         if (const auto request = kernel.resample_candidates(pixel, step.pass); kernel.needs_rays(request)) {
-            kernel.add_bsdf_candidate(request, step.pass);
+            shared::ResamplingPass pass = step.pass;
+            for (pass.iteration = 0; pass.iteration < shared::BSDF_CANDIDATES_NARROW; ++pass.iteration) {
+                kernel.add_bsdf_candidate(request, pass);
+            }
         }
         if (tests_candidates(kernel.constants)) {
             kernel.test_candidate(pixel, step.pass);

@@ -43,9 +43,10 @@ Scene sliding_square() {
 }  // namespace
 
 TEST_CASE("A renderer that moved has the bits of a new one at that moment") {
-    for (const Integrator integrator : integrators) {
+    for (const Integrator integrator : {Integrator::brdf, Integrator::direct, Integrator::path, Integrator::ris}) {
         INFO(name_of(integrator));
-        const RenderSettings settings = small_settings(integrator);
+        RenderSettings settings = small_settings(integrator);
+        settings.resampling.near_share = 0;  // clusters of lights stay as they were when the scene was packed
         Scene scene = generate_scene("moving-light").scene;
         PackedScene packed = pack_scene(scene, settings);
         const auto moved = make_cpu_renderer(packed, 2);

@@ -37,14 +37,17 @@ bool same_pixels(const Film& a, const Film& b) {
 
 TEST_CASE("A renderer that moved has the bits of a new one at that moment, on the device") {
     NEED_VULKAN();
+    const Integrator integrator = GENERATE(Integrator::path, Integrator::ris);
     const bool keeps_previous = GENERATE(false, true);
-    const RenderSettings settings = small_settings(keeps_previous);
+    RenderSettings settings = small_settings(keeps_previous);
+    settings.integrator = integrator;
+    settings.resampling.near_share = 0;  // clusters of lights stay as they were when the scene was packed
     Scene scene = generate_scene("moving-light").scene;
     PackedScene packed = pack_scene(scene, settings);
     PathRenderer moved(packed, test_options());
     std::vector<Film> films;
     for (const double seconds : {0.5, 1.5, 3.0, 0.5}) {
-        CAPTURE(seconds, keeps_previous);
+        CAPTURE(seconds, keeps_previous, static_cast<int>(integrator));
         pose_scene(scene, seconds);
         pack_moment(scene, settings, packed);
         moved.move_to(packed);

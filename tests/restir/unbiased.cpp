@@ -105,6 +105,11 @@ TEST_CASE("restir is unbiased through a sheet that half of the light passes, whe
             c.settings.resampling.light_candidates = 1;
             check_frames(c, {0, 2}, 6, {16, 12});
         }
+        // Sampling the material finds no such emitter, but what is behind it.
+        ChainCase c = chain_case(glossy ? "glowing sheet, glossy" : "glowing sheet", sheet(glossy));
+        c.scene.materials.back().emission = glm::vec3(2);
+        c.settings.resampling.light_candidates = 1;
+        check_frames(c, {0, 2}, 6, {16, 12});
     }
 }
 

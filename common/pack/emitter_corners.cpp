@@ -1,0 +1,38 @@
+#include "pack/emitter_corners.h"
+
+#include <limits>
+
+namespace diptych {
+namespace {
+
+/// As may_be_passed (light_point.kernel.h) tells shaders: what they think could be found must be found.
+bool may_be_passed(const PackedScene& packed, const shared::EmissiveTriangle& light) {
+    const std::uint32_t needed = shared::FEATURE_ALPHA | shared::FEATURE_EMISSIVE_TEXTURES;
+    const std::uint32_t flags = packed.materials[packed.geometries[light.geometry].material].flags;
+    return (packed.features & needed) == needed && (light.flags & shared::EMITTER_VARIES) != 0 &&
+           (flags & (shared::MATERIAL_ALPHA_MASK | shared::MATERIAL_ALPHA_BLEND)) != 0;
+}
+
+}  // namespace
+
+bool searches_emitters(const PackedScene& packed) {
+    const shared::RenderConstants& c = packed.constants;
+    return c.integrator >= shared::INTEGRATOR_RIS && c.resampling.bsdf_candidates != 0 && c.max_depth > 0 &&
+           c.emissive_triangle_count > 0;
+}
+
+std::vector<shared::vec3> emitter_corners(const PackedScene& packed) {
+    std::vector<shared::vec3> corners(3 * packed.emissive_triangles.size(),
+                                      shared::vec3(std::numeric_limits<float>::quiet_NaN()));
+    for (std::size_t i = 0; i < packed.emissive_triangles.size(); ++i) {
+        const shared::EmissiveTriangle& light = packed.emissive_triangles[i];
+        if (light.pmf > 0 && !may_be_passed(packed, light)) {
+            corners[3 * i] = light.vertex_0;
+            corners[3 * i + 1] = light.vertex_0 + light.edge_1;
+            corners[3 * i + 2] = light.vertex_0 + light.edge_2;
+        }
+    }
+    return corners;
+}
+
+}  // namespace diptych
