@@ -216,12 +216,11 @@ void EmbreeScene::place_all(const PackedScene& packed, Root& root) {
 }
 
 void EmbreeScene::place_emitters(const PackedScene& packed) {
-    const std::uint64_t revision = std::exchange(emitter_revision_, packed.revisions.emissive_triangles);
     if (!searches_emitters(packed)) {
         emitters_.reset();
         return;
     }
-    const bool known = revision != 0 && revision == emitter_revision_;
+    const bool known = emitter_revision_ != 0 && emitter_revision_ == packed.revisions.emissive_triangles;
     if (emitters_ && MUTANT(EMBREE_EMITTERS_STAY, known, true)) {
         return;
     }
@@ -231,14 +230,18 @@ void EmbreeScene::place_emitters(const PackedScene& packed) {
                                              corners.size());
     void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
                                             corners.size() / 3);
+    check("emitters");
     std::copy(corners.begin(), corners.end(), static_cast<glm::vec3*>(vertices));
     std::iota(static_cast<std::uint32_t*>(indices), static_cast<std::uint32_t*>(indices) + corners.size(), 0U);
     rtcCommitGeometry(geometry);
-    emitters_.reset(rtcNewScene(device_.get()));
-    rtcSetSceneFlags(emitters_.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcAttachGeometry(emitters_.get(), geometry);
+    ScenePtr scene(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(emitters_.get());
+    rtcCommitScene(scene.get());
+    check("emitters");
+    emitters_ = std::move(scene);
+    emitter_revision_ = packed.revisions.emissive_triangles;
 }
 
 void EmbreeScene::move_to(const PackedScene& moment) {
@@ -301,6 +304,7 @@ EmbreeHit EmbreeScene::closest(const glm::vec3& origin, const glm::vec3& directi
 }
 
 EmbreeHit EmbreeScene::emitter(const glm::vec3& origin, const glm::vec3& direction, float t_max) const {
+    assert(emitters_);
     return nearest(emitters_.get(), origin, direction, t_max, 0);
 }
 

@@ -18,8 +18,8 @@ struct BsdfCandidates {
 
 /// Narrow lobes more than once, and as far as they reach: lights are seldom picked within them, and nobody else looks for them. Others now
 /// and then where emitters are close by: a point of those is picked for its area and not for being near, so seldom and with a weight as
-/// large as that is seldom. That it might be found by its solid angle bounds it where it is visible and about as bright as the scene's lamps
-/// are, and short rays are cheap. The bound is 1 / count, and what comes near it is rarer the rougher the surface is.
+/// large as that is seldom. That it might be found by its solid angle bounds it where it is about as bright as the scene's lamps are, and
+/// short rays are cheap. The bound is 1 / count, and what comes near it is rarer the rougher the surface is.
 FN BsdfCandidates bsdf_candidates(IN(SurfaceBsdf) bsdf, IN(LightPicker) picker) {
     BsdfCandidates c;
     c.count = 0.0f;
@@ -121,26 +121,44 @@ FN float candidate_target(IN(FirstSurface) first, IN(SeenLight) light, vec3 f) {
                         : light.measure * luminance(f * light.radiance);
 }
 
-/// What was picked, less what the balance heuristic gives to sampling the material, which is done q times: it keeps
-/// n p_pick / (q p_bsdf + n p_pick). Whether the point is seen does not matter. If it is, sampling the material may find it, as no emitter
-/// is before it; if it is not, it weighs nothing in the end.
-FN Reservoir share_with_material(IN(FirstSurface) first, IN(LightPicker) picker, IN(BsdfCandidates) c,
-                                 IN(Reservoir) picked) {
-    if (!(c.count > 0.0f) || !(picked.weight > 0.0f)) {
-        return picked;
+/// How much of its weight a picked point gives to sampling the material, which is done q times, by the balance heuristic:
+/// q p_bsdf / (q p_bsdf + n p_pick), where that may find it.
+FN float bsdf_share(IN(FirstSurface) first, IN(LightPicker) picker, IN(BsdfCandidates) c, IN(LightPoint) picked,
+                    IN(SeenLight) light, float pdf) {
+    if (!is_within(c, first.origin, light)) {
+        return 0.0f;
     }
-    SeenLight light = see_light_point(picked.point, first.origin, MOMENT_CURRENT);
+    float pdf_bsdf = c.count * light.measure * pdf;
+    float pdf_picked = picks_of_light(picker, picked.light) * pdf_light_point(picked);
+    return MUTANT(PICKED_KEEPS_ALL, pdf_bsdf / (pdf_bsdf + pdf_picked), 0.0f);
+}
+
+/// Takes from a picked point what sampling the material is to add, or leaves a request for it. Sampling finds a point if no emitter is before
+/// it (trace_emitters). Where nobody else takes the reservoir over, that need not be asked: of a point that is seen it is so, and one that is
+/// not weighs nothing in the end. But others may see what is hidden from here, and to them the shares have to add up to 1: there a ray among
+/// the emitters asks. Where the share r is small it seldom pays to look: with probability a = min(1, r / BSDF_SHARE_LEAST) the point gives up
+/// r / a if no emitter is before it, which comes to the same.
+FN void share_with_material(IN(FirstSurface) first, IN(LightPicker) picker, IN(BsdfCandidates) c,
+                            INOUT(Reservoir) reservoir, INOUT(CandidateRequest) request) {
+    if (!(c.count > 0.0f) || !(reservoir.weight > 0.0f)) {
+        return;
+    }
+    SeenLight light = see_light_point(reservoir.point, first.origin, MOMENT_CURRENT);
     BsdfValue value = surface_bsdf_eval_pdf(first.bsdf, first.wo, light.direction, features());
-    float kept = 1.0f;
-    if (is_within(c, first.origin, light)) {
-        float pdf_bsdf = c.count * light.measure * value.pdf;
-        float pdf_picked = picks_of_light(picker, picked.point.light) * pdf_light_point(picked.point);
-        kept = MUTANT(PICKED_KEEPS_ALL, pdf_picked / (pdf_bsdf + pdf_picked), 1.0f);
+    float share = bsdf_share(first, picker, c, reservoir.point, light, value.pdf);
+    if (first.reuses && constants.integrator == INTEGRATOR_RESTIR) {
+        float asked = min(share * (1.0f / BSDF_SHARE_LEAST), 1.0f);
+        uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
+        if (unit_float(pick.z) < asked) {
+            request.needs |= CANDIDATE_SHARES;
+            request.share = share / asked;
+        }
+        return;
     }
     float target = candidate_target(first, light, value.value);
     Resampling chosen = begin_resampling();
-    add_candidate(chosen, picked.point, target, kept * target * picked.weight, 0.0f);
-    return initial_reservoir(chosen);
+    add_candidate(chosen, reservoir.point, target, (1.0f - share) * target * reservoir.weight, 0.0f);
+    reservoir = initial_reservoir(chosen);
 }
 
 /// How often the material is to be sampled.
@@ -150,10 +168,10 @@ FN uint bsdf_candidate_needs(IN(FirstSurface) first, IN(BsdfCandidates) c) {
 }
 
 FN bool needs_rays(IN(CandidateRequest) r) {
-    return (r.needs & CANDIDATE_SAMPLES_BSDF) != 0u;
+    return (r.needs & (CANDIDATE_SAMPLES_BSDF | CANDIDATE_SHARES)) != 0u;
 }
 
-/// The reservoir, for now, and the surface for others. Returns what add_bsdf_candidate has to do, if anything.
+/// The reservoir, for now, and the surface for others. Returns what share_picked and add_bsdf_candidate have to do, if anything.
 FN CandidateRequest resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
     FirstVertex vertex = load_first_vertex(index);
@@ -163,6 +181,7 @@ FN CandidateRequest resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
     CandidateRequest request;
     request.pixel = index;
     request.needs = 0u;
+    request.share = 0.0f;
     request.near_sum = 0.0f;
     if (first.takes_light) {
         vertex.origin = first.origin;
@@ -170,10 +189,10 @@ FN CandidateRequest resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
         TargetSurface surface = picking_surface(first);
         LightPicker picker = begin_light_picker(surface);
         BsdfCandidates c = bsdf_candidates(first.bsdf, picker);
-        Reservoir picked = initial_reservoir(resample_lights(surface, picker, first.random));
-        reservoir = share_with_material(first, picker, c, picked);
+        reservoir = initial_reservoir(resample_lights(surface, picker, first.random));
         request.needs = bsdf_candidate_needs(first, c) | (picker.close ? CANDIDATE_IS_CLOSE : 0u);
         request.near_sum = picker.sum;
+        share_with_material(first, picker, c, reservoir, request);
         if (first.reuses) {
             kept = first.packed;
         }

@@ -9,19 +9,22 @@
 SHARED_BEGIN
 
 CONST uint BSDF_CANDIDATES_NARROW = 2u;       // a pixel and frame, on narrow lobes
-CONST float BSDF_CANDIDATES_GLOSSY = 1.0f;    // on glossy surfaces with lamps close by; below 1 it is a probability
+CONST float BSDF_CANDIDATES_GLOSSY = 1.0f;    // on glossy surfaces with lamps close by; at most 1, and below it a probability
 CONST float BSDF_CANDIDATES_NEARBY = 0.125f;  // on others with lamps close by
+CONST float BSDF_SHARE_LEAST = 0.125f;        // that a picked point gives up where it is asked to
 CONST uint CANDIDATE_SAMPLES_BSDF = 1u;
-CONST uint CANDIDATE_IS_NARROW = 2u;
-CONST uint CANDIDATE_IS_CLOSE = 4u;
+CONST uint CANDIDATE_SHARES = 2u;
+CONST uint CANDIDATE_IS_NARROW = 4u;
+CONST uint CANDIDATE_IS_CLOSE = 8u;
 
 /// What initial resampling still needs of a pixel once lights were picked, and what it knows by then.
 struct CandidateRequest {
     uint pixel;      // its index
-    uint needs;      // CANDIDATE_SAMPLES_BSDF, or nothing; IS_NARROW: BSDF_CANDIDATES_NARROW times; IS_CLOSE: as LightPicker has it
+    uint needs;      // CANDIDATE_SAMPLES_BSDF, CANDIDATE_SHARES; IS_NARROW: samples BSDF_CANDIDATES_NARROW times; IS_CLOSE: as LightPicker has it
+    float share;     // of what was picked, that it gives up if no emitter is before it
     float near_sum;  // LightPicker::sum, for which it would have to look at all clusters again
 };
-ASSERT_SIZE(CandidateRequest, 12);
+ASSERT_SIZE(CandidateRequest, 16);
 
 /// A first vertex that waits to be shaded.
 struct FirstVertex {

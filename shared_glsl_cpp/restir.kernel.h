@@ -16,6 +16,8 @@
 #include "resampled_path.kernel.h"
 #include "reuse_passes.kernel.h"
 
+FN bool searches_emitters() { return feature(FEATURE_EMISSIVE) && constants.emissive_triangle_count > 0u; }
+
 /// What sampling the material finds, if anything, with the density of finding it so, all times together: the nearest emitter or, where there
 /// is none, the environment, whatever else is before it. `i`: which time.
 FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) picker, uint i, INOUT(uint) rays) {
@@ -29,7 +31,7 @@ FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) p
         return found;
     }
     BsdfCandidates c = bsdf_candidates(first.bsdf, picker);
-    if (feature(FEATURE_EMISSIVE)) {
+    if (searches_emitters()) {
         rays += 1u;
         found.point = trace_emitters(first.origin, next.direction, c.reach);
     }
@@ -39,14 +41,35 @@ FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) p
     }
     if (found.point.light < constants.light_count) {
         SeenLight light = see_light_point(found.point, first.origin, MOMENT_CURRENT);
-        found.pdf = is_within(c, first.origin, light) ? c.count * next.pdf * light.measure : 0.0f;
+        found.pdf = is_within(c, first.origin, light) ? MUTANT(NARROW_COUNTED_ONCE, c.count, min(c.count, 1.0f)) * next.pdf * light.measure : 0.0f;
     }
     return found;
 }
 
+/// Takes from a picked point what it shares with sampling the material, unless an emitter is before it.
+FN void share_picked(IN(CandidateRequest) request, IN(ResamplingPass) pass) {
+    if ((request.needs & CANDIDATE_SHARES) == 0u) {
+        return;
+    }
+    FirstVertex vertex = load_first_vertex(request.pixel);
+    Reservoir picked = load_reservoir(pass.reservoirs, request.pixel);
+    SeenLight light = see_light_point(picked.point, vertex.origin, MOMENT_CURRENT);
+    bool behind = false;
+    if (searches_emitters()) {
+        vec3 way = light.distant ? light.direction : light.end - vertex.origin;
+        float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
+        behind = MUTANT(EMITTERS_HIDE_NONE, trace_emitters(vertex.origin, way, t_max).light != NONE, false);
+        vertex.rays += 1u;
+        store_first_vertex(request.pixel, vertex);
+    }
+    picked.weight *= behind ? 1.0f : 1.0f - request.share;
+    store_reservoir(pass.reservoirs, request.pixel, picked);
+}
+
 /// Adds what sampling the material finds to what there is, once an iteration of the pass.
 FN void add_bsdf_candidate(IN(CandidateRequest) request, IN(ResamplingPass) pass) {
-    if (pass.iteration > 0u && (request.needs & CANDIDATE_IS_NARROW) == 0u) {
+    uint least = CANDIDATE_SAMPLES_BSDF | (pass.iteration > 0u ? CANDIDATE_IS_NARROW : 0u);
+    if ((request.needs & least) != least) {
         return;
     }
     uint index = request.pixel;

@@ -15,7 +15,8 @@ struct Bindings {
     vk::DescriptorSet set;  // the pool's
 };
 
-/// Top-level structures; where a scene or its settings lack one of the others, the first stands in for it.
+/// Top-level structures. Where a scene or its settings lack one of the others, the first stands in for it: in place of
+/// the moment before it means what it says, in place of the emitters it may not be traced.
 struct Structures {
     vk::AccelerationStructureKHR scene;
     vk::AccelerationStructureKHR previous = nullptr;  // of the moment before

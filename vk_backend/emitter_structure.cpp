@@ -74,14 +74,13 @@ vk::raii::AccelerationStructureKHR make_structure(const Gpu& gpu, Type type, con
     return gpu.device.createAccelerationStructureKHR({.buffer = *storage.handle, .size = bytes, .type = type});
 }
 
-/// Both levels, from `corners`; their memory is made where there is none.
-void build(const Gpu& gpu, EmitterStructure& emitters) {
+/// Both levels; their memory is made where there is none.
+void build(const Gpu& gpu, std::vector<shared::vec3> from, EmitterStructure& emitters) {
     const Usage input = Usage::eAccelerationStructureBuildInputReadOnlyKHR;
-    const auto count = static_cast<std::uint32_t>(emitters.corners.size() / 3);
+    const auto count = static_cast<std::uint32_t>(from.size() / 3);
     Uploader uploader(gpu, std::uint64_t{4} << 20U);
-    const Buffer corners =
-        upload_array(gpu, uploader, "corners of emitters", std::span(std::as_const(emitters.corners)),
-                     input | Usage::eShaderDeviceAddress);
+    const Buffer corners = upload_array(gpu, uploader, "corners of emitters", std::span(std::as_const(from)),
+                                        input | Usage::eShaderDeviceAddress);
     Level bottom;
     describe_level(gpu, Type::eBottomLevel, describe_triangles(corners.address, count), count, bottom);
     if (!*emitters.bottom) {
@@ -111,6 +110,7 @@ void build(const Gpu& gpu, EmitterStructure& emitters) {
         }
         full_barrier(commands);
     });
+    emitters.corners = std::move(from);
 }
 
 }  // namespace
@@ -118,9 +118,8 @@ void build(const Gpu& gpu, EmitterStructure& emitters) {
 EmitterStructure build_emitters(const Gpu& gpu, const PackedScene& packed) {
     EmitterStructure emitters;
     if (searches_emitters(packed)) {
-        emitters.corners = emitter_corners(packed);
+        build(gpu, emitter_corners(packed), emitters);
         emitters.revision = packed.revisions.emissive_triangles;
-        build(gpu, emitters);
     }
     return emitters;
 }
@@ -135,11 +134,10 @@ void move_emitters(const Gpu& gpu, const PackedScene& packed, EmitterStructure& 
         return;
     }
     std::vector<shared::vec3> corners = emitter_corners(packed);
-    emitters.revision = packed.revisions.emissive_triangles;
     if (std::memcmp(corners.data(), emitters.corners.data(), corners.size() * sizeof(shared::vec3)) != 0) {
-        emitters.corners = std::move(corners);
-        build(gpu, emitters);
+        build(gpu, std::move(corners), emitters);
     }
+    emitters.revision = packed.revisions.emissive_triangles;
 }
 
 }  // namespace diptych

@@ -199,6 +199,9 @@ void PathRenderer::choose_pipelines() {
         candidates_.picked = &compute_pipeline(shader_of(ResamplingStage::candidates));
         if (constants_.resampling.bsdf_candidates != 0) {
             candidates_.bsdf = &pipeline(shader_binary("restir_bsdf_candidates.rgen"));
+            if (constants_.integrator == shared::INTEGRATOR_RESTIR) {
+                candidates_.shares = &pipeline(shader_binary("restir_share_picked.rgen"));
+            }
         }
         if (tests_candidates(constants_)) {
             candidates_.shadows = &pipeline(shader_binary("restir_candidate_shadows.rgen"));

@@ -96,6 +96,11 @@ void record_candidates(const vk::raii::CommandBuffer& commands, const CandidateP
     }
     compute_region(commands, *pipelines.picked, layout, bindings, dispatch);
     if (pipelines.bsdf != nullptr) {
+        if (pipelines.shares != nullptr) {
+            full_barrier(commands);
+            bind_pass(commands, *pipelines.shares, layout, bindings, dispatch);
+            trace_indirect(commands, *pipelines.shares, memory.candidate_list.address);
+        }
         shared::Dispatch again = dispatch;
         for (std::uint32_t i = 0; i < shared::BSDF_CANDIDATES_NARROW; ++i) {
             again.pass.iteration = i;

@@ -37,6 +37,7 @@ Spirv resampling_shader(ResamplingStage stage, const shared::RenderConstants& co
 struct CandidatePipelines {
     const vk::raii::Pipeline* picked = nullptr;
     const TracePipeline* bsdf = nullptr;     // null where no material is sampled
+    const TracePipeline* shares = nullptr;   // null where reservoirs are not handed on either
     const TracePipeline* shadows = nullptr;  // null where none is tested
 };
 

@@ -14,6 +14,7 @@ void run_stage(Kernel& kernel, const ResamplingStep& step, shared::uvec2 pixel) 
         break;
     case ResamplingStage::candidates:
         if (const auto request = kernel.resample_candidates(pixel, step.pass); kernel.needs_rays(request)) {
+            kernel.share_picked(request, step.pass);
             shared::ResamplingPass pass = step.pass;
             for (pass.iteration = 0; pass.iteration < shared::BSDF_CANDIDATES_NARROW; ++pass.iteration) {
                 kernel.add_bsdf_candidate(request, pass);

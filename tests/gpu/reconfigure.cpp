@@ -142,7 +142,7 @@ TEST_CASE("Settings met before compile nothing, on the device") {
     const Film first = shoot(renderer);
     renderer.reconfigure(pack_scene(scene, restir));
     const std::size_t compiled = renderer.pipelines_compiled();
-    CHECK(compiled == 16);
+    CHECK(compiled == 17);
     const Film resampled = shoot(renderer);
     renderer.reconfigure(pack_scene(scene, path));
     CHECK(same_film(shoot(renderer), first));

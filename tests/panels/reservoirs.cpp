@@ -83,6 +83,9 @@ TEST_CASE("Both panels keep the same reservoirs, pass by pass") {
     ChainCase glossy = chain_case("glossy slats, visibility in the target", slats(true));
     glossy.settings.resampling.visibility = ResamplingVisibility::target;
     check_alike(glossy, 4);
+    ChainCase sky = chain_case("sky alone, all features", under_sky());
+    sky.settings.generic = true;
+    check_alike(sky, 2);
     ChainCase moving = chain_case("moving light", generated("moving-light"));
     moving.start = 0.5;
     moving.seconds = 0.125;

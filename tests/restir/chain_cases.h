@@ -35,9 +35,9 @@ inline ChainCase chain_case(const std::string& name, Scene scene) {
     return c;
 }
 
-/// A floor whose pixels see the lamp or do not, by turns: black slats stand between. Glossy, it shows the lamp's image
-/// through them.
-inline Scene slats(bool glossy) {
+/// A floor whose pixels see the lamp or do not, by turns: black slats stand between, which may glow a little. Glossy,
+/// it shows the lamp's image through them.
+inline Scene slats(bool glossy, float glow = 0) {
     Scene scene;
     scene.name = "slats";
     Material floor = diffuse_material(0.8F);
@@ -45,7 +45,9 @@ inline Scene slats(bool glossy) {
         floor = make_material("floor", glm::vec3(0.9F), 1, 0.3F);
     }
     const int floor_material = add_material(scene, floor);
-    const int black = add_material(scene, diffuse_material(0));
+    Material slats = diffuse_material(0);
+    slats.emission = glm::vec3(glow);
+    const int black = add_material(scene, slats);
     const int lamp = add_material(scene, make_emitter("lamp", glm::vec3(glossy ? 5.0F : 200.0F)));
     std::vector<Primitive> parts{horizontal_square({0, 0, 0}, 2, true, floor_material),
                                  horizontal_square({-0.6F, 1.5F, 0}, glossy ? 0.4F : 0.03F, false, lamp)};
@@ -121,6 +123,18 @@ inline Scene sheet(bool glossy) {
     add_object(scene, "sheet", {horizontal_square({0, 0.2F, 0}, 1, true, add_material(scene, film))});
     scene.environment.kind = EnvironmentKind::constant;
     scene.environment.scale = glm::vec3(0.2F);
+    return scene;
+}
+
+/// A glossy floor under a sky and nothing else.
+inline Scene under_sky() {
+    Scene scene;
+    scene.name = "sky";
+    const int floor = add_material(scene, make_material("floor", glm::vec3(0.9F), 1, 0.3F));
+    add_object(scene, "floor", {horizontal_square({0, 0, 0}, 2, true, floor)});
+    scene.environment.kind = EnvironmentKind::constant;
+    scene.environment.scale = glm::vec3(0.2F);
+    scene.cameras.push_back(make_camera("eye", {0, 0.3, 0.5}, {0, 0, 0}, 20));
     return scene;
 }
 

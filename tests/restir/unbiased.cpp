@@ -113,6 +113,23 @@ TEST_CASE("restir is unbiased through a sheet that half of the light passes, whe
     }
 }
 
+TEST_CASE("restir is unbiased where emitters hide a lamp from neighbours by turns") {
+    ChainCase c = chain_case("glowing slats", slats(true, 0.001F));
+    c.settings.resampling.light_candidates = 1;
+    check_frames(c, {0, 1, 8}, 6, {16, 24});
+}
+
+TEST_CASE("ris and restir are unbiased under a sky alone, whatever features are allowed") {
+    for (const Integrator integrator : {Integrator::ris, Integrator::restir}) {
+        for (const bool generic : {false, true}) {
+            ChainCase c = chain_case(generic ? "sky, generic" : "sky", under_sky());
+            c.settings.integrator = integrator;
+            c.settings.generic = generic;
+            check_frames(c, {0, 1}, 2, {16, 4});
+        }
+    }
+}
+
 TEST_CASE("Spatial passes draw apart") {
     ChainCase c = chain_case("hidden lamp", hidden_lamp());
     c.settings.resampling.light_candidates = 1;
@@ -133,7 +150,7 @@ TEST_CASE("Frames draw apart") {
     check_frames(c, {0, 4, 8}, 4, {16, 16});
 }
 
-TEST_CASE("MIS between lights and material knows what is hidden", "[nightly]") {
+TEST_CASE("MIS between lights and material is unbiased where much is hidden", "[nightly]") {
     ChainCase c = chain_case("glossy slats", slats(true));
     c.settings.resampling.light_candidates = 1;
     check_frames(c, {8, 16}, 1.5, {16, 48});
