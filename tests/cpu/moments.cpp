@@ -48,6 +48,10 @@ TEST_CASE("A renderer that moved has the bits of a new one at that moment") {
         RenderSettings settings = small_settings(integrator);
         settings.resampling.near_share = 0;  // clusters of lights stay as they were when the scene was packed
         Scene scene = generate_scene("moving-light").scene;
+        for (Material& material : scene.materials) {
+            material.metallic = 1;  // narrow lobes look for emitters wherever these are
+            material.roughness = 0.2F;
+        }
         PackedScene packed = pack_scene(scene, settings);
         const auto moved = make_cpu_renderer(packed, 2);
         std::vector<Film> films;

@@ -43,6 +43,10 @@ TEST_CASE("A renderer that moved has the bits of a new one at that moment, on th
     settings.integrator = integrator;
     settings.resampling.near_share = 0;  // clusters of lights stay as they were when the scene was packed
     Scene scene = generate_scene("moving-light").scene;
+    for (Material& material : scene.materials) {
+        material.metallic = 1;  // narrow lobes look for emitters wherever these are
+        material.roughness = 0.2F;
+    }
     PackedScene packed = pack_scene(scene, settings);
     PathRenderer moved(packed, test_options());
     std::vector<Film> films;
