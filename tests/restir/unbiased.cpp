@@ -51,6 +51,17 @@ TEST_CASE("restir is unbiased where lights switch and move, and an occluder with
     check_frames(c, {0, 1, 4, 12}, 4);
 }
 
+TEST_CASE("restir is unbiased where glossy surfaces look for lights that switch and move") {
+    ChainCase c = chain_case("moving light, glossy", generated("moving-light"));
+    for (Material& material : c.scene.materials) {
+        material.metallic = 1;
+        material.roughness = 0.3F;
+    }
+    c.seconds = 0.125;
+    c.start = 0.5;
+    check_frames(c, {0, 1, 3, 4, 5, 12, 13}, 5, {16, 24});
+}
+
 TEST_CASE("restir is unbiased under a moving camera") {
     ChainCase c = chain_case("orbit", generated("cornell"));
     c.orbit = 3;
