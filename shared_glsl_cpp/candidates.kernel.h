@@ -16,9 +16,9 @@ struct BsdfCandidates {
     float reach;  // metres, along which they find lights
 };
 
-/// Narrow lobes more than once, and as far as they reach: lights are seldom picked within them, and nobody else looks for them. Others now
-/// and then where emitters are close by: a point of those is picked for its area and not for being near, so seldom and with a weight as
-/// large as that is seldom. That it might be found by its solid angle bounds it where it is about as bright as the scene's lamps are, and
+/// Narrow lobes more than once, and as far as they reach: lights are seldom picked within them. Others where emitters are close by, and the
+/// roughest of them now and then: a point of those is picked for its area and not for being near, so seldom and with a weight as large as
+/// that is seldom. That it might be found by its solid angle bounds it where it is about as bright as the scene's lamps are, and
 /// short rays are cheap. The bound is 1 / count, and what comes near it is rarer the rougher the surface is.
 FN BsdfCandidates bsdf_candidates(IN(SurfaceBsdf) bsdf, IN(LightPicker) picker) {
     BsdfCandidates c;

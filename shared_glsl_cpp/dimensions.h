@@ -23,7 +23,7 @@ CONST uint DIMENSION_ROULETTE = 10u;        // one; the other is spare
 // Resampling draws four words at a dimension of its own, far from a path's.
 CONST uint DIMENSION_CANDIDATE = 0x10000u;         // + candidate
 CONST uint DIMENSION_CANDIDATE_PICK = 0x20000u;    // + candidate: which is kept, and words for the environment
-CONST uint DIMENSION_BSDF_CANDIDATE = 0x30000u;    // + 2 * time: its direction; + 2 * time + 1: which is kept, and whether to sample and share
+CONST uint DIMENSION_BSDF_CANDIDATE = 0x30000u;    // + 2 * time: direction; + 2 * time + 1: which is kept, and at time 0 what to do
 CONST uint DIMENSION_TEMPORAL = 0x40000u;
 CONST uint DIMENSION_NEIGHBOR = 0x50000u;          // + pass * (RESAMPLING_MAX_NEIGHBORS + 1) + neighbour: where it lies
 CONST uint DIMENSION_NEIGHBOR_PICK = 0x60000u;     // likewise: which sample is kept

@@ -16,7 +16,7 @@
 #include "resampled_path.kernel.h"
 #include "reuse_passes.kernel.h"
 
-FN bool searches_emitters() { return feature(FEATURE_EMISSIVE) && constants.emissive_triangle_count > 0u; }
+FN bool has_emitters() { return feature(FEATURE_EMISSIVE) && constants.emissive_triangle_count > 0u; }
 
 /// What sampling the material finds, if anything, with the density of finding it so, all times together: the nearest emitter or, where there
 /// is none, the environment, whatever else is before it. `i`: which time.
@@ -31,7 +31,7 @@ FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) p
         return found;
     }
     BsdfCandidates c = bsdf_candidates(first.bsdf, picker);
-    if (searches_emitters()) {
+    if (has_emitters()) {
         rays += 1u;
         found.point = trace_emitters(first.origin, next.direction, c.reach);
     }
@@ -41,7 +41,8 @@ FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) p
     }
     if (found.point.light < constants.light_count) {
         SeenLight light = see_light_point(found.point, first.origin, MOMENT_CURRENT);
-        found.pdf = is_within(c, first.origin, light) ? MUTANT(NARROW_COUNTED_ONCE, c.count, min(c.count, 1.0f)) * next.pdf * light.measure : 0.0f;
+        float times = MUTANT(NARROW_COUNTED_ONCE, c.count, min(c.count, 1.0f));
+        found.pdf = is_within(c, first.origin, light) ? times * next.pdf * light.measure : 0.0f;
     }
     return found;
 }
@@ -55,7 +56,7 @@ FN void share_picked(IN(CandidateRequest) request, IN(ResamplingPass) pass) {
     Reservoir picked = load_reservoir(pass.reservoirs, request.pixel);
     SeenLight light = see_light_point(picked.point, vertex.origin, MOMENT_CURRENT);
     bool behind = false;
-    if (searches_emitters()) {
+    if (has_emitters()) {
         vec3 way = light.distant ? light.direction : light.end - vertex.origin;
         float t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
         behind = MUTANT(EMITTERS_HIDE_NONE, trace_emitters(vertex.origin, way, t_max).light != NONE, false);
