@@ -23,8 +23,14 @@ struct Reservoir {
     float weight;      // W, per unit of uv measure; 0: a null sample
     float confidence;  // c, in initial samplings
     float target;      // p̂ of the point, where the reservoir was made
+    float favor;       // multiplies its weights wherever it is merged: 1, or FAVOR_HIDDEN
 };
-ASSERT_SIZE(Reservoir, 24);
+ASSERT_SIZE(Reservoir, 28);
+
+/// Of a point that was hidden when a shadow ray last asked, for this pixel or for whom it came from: it is likely to be hidden again. So it is
+/// chosen less often, and where it is, its favor is divided out of W (end_resampling). The expectation is the same whatever positive number
+/// that is, so no m_i need know of it, as they would of a target with visibility. Why a half: docs/decisions/0014-favor.md.
+CONST float FAVOR_HIDDEN = 0.5f;
 
 FN LightPoint no_light_point() {
     LightPoint y;
@@ -39,6 +45,7 @@ FN Reservoir empty_reservoir() {
     r.weight = 0.0f;
     r.confidence = 0.0f;
     r.target = 0.0f;
+    r.favor = 1.0f;
     return r;
 }
 
@@ -46,6 +53,7 @@ FN Reservoir empty_reservoir() {
 struct Resampling {
     LightPoint point;
     float target;  // of the kept point
+    float favor;   // likewise
     float weight_sum;
     float weight_lost;  // what rounding took from the sum: beyond 2^24 equal weights it would stand still
 };
@@ -54,35 +62,45 @@ FN Resampling begin_resampling() {
     Resampling s;
     s.point = no_light_point();
     s.target = 0.0f;
+    s.favor = 1.0f;
     s.weight_sum = 0.0f;
     s.weight_lost = 0.0f;
     return s;
 }
 
-/// A candidate of resampling weight w = m p̂(y) W; u in [0, 1). What is not a positive finite number is passed over.
-FN void add_candidate(INOUT(Resampling) s, IN(LightPoint) point, float target, float w, float u) {
-    if (!(target > MUTANT(TARGET_CUT_OFF, TARGET_MIN, 0.1f)) || !(w > 0.0f && w < INFINITE_DISTANCE)) {
+/// A candidate of resampling weight w = m p̂(y) W, times `favor`; u in [0, 1). What is not a positive finite number is passed over.
+FN void add_favored_candidate(INOUT(Resampling) s, IN(LightPoint) point, float target, float w, float favor, float u) {
+    float weight = favor * w;
+    if (!(target > MUTANT(TARGET_CUT_OFF, TARGET_MIN, 0.1f)) || !(weight > 0.0f && weight < INFINITE_DISTANCE)) {
         return;
     }
-    PRECISE float added = w + s.weight_lost;
+    PRECISE float added = weight + s.weight_lost;
     PRECISE float total = s.weight_sum + added;
     PRECISE float lost = added - (total - s.weight_sum);  // Kahan 1965
     s.weight_sum = total;
     s.weight_lost = MUTANT(RESERVOIR_SUM_PLAIN, abs(lost) < INFINITE_DISTANCE, false) ? lost : 0.0f;
-    if (u * s.weight_sum < w) {
+    if (u * s.weight_sum < weight) {
         s.point = point;
         s.target = target;
+        s.favor = favor;
     }
 }
 
-/// W = scale · Σw / p̂(y).
+/// A candidate of which nobody knows whether it is seen.
+FN void add_candidate(INOUT(Resampling) s, IN(LightPoint) point, float target, float w, float u) {
+    add_favored_candidate(s, point, target, w, 1.0f, u);
+}
+
+/// W = scale · Σw / (p̂(y) · y's favor).
 FN Reservoir end_resampling(IN(Resampling) s, float scale, float confidence) {
     Reservoir r;
     r.point = s.point;
-    r.weight = s.target > 0.0f ? scale * (s.weight_sum / s.target) : 0.0f;
+    float share = s.target * MUTANT(FAVOR_STAYS, s.favor, 1.0f);
+    r.weight = s.target > 0.0f ? scale * (s.weight_sum / share) : 0.0f;
     r.weight = MUTANT(RESERVOIR_CLAMPED, r.weight, min(r.weight, 1.0f));
     r.confidence = confidence;
     r.target = s.target;
+    r.favor = MUTANT(FAVOR_FORGOTTEN, s.favor, 1.0f);
     if (!(r.weight > 0.0f && r.weight < INFINITE_DISTANCE)) {
         r.point = no_light_point();
         r.weight = 0.0f;

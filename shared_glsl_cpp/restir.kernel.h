@@ -124,7 +124,8 @@ FN void test_candidate(uvec2 pixel, IN(ResamplingPass) pass) {
     }
 }
 
-/// Whether the point that a reservoir ended with is seen from its first vertex. Where the target has visibility, it is.
+/// Whether the point that a reservoir ended with is seen from its first vertex: for the light of this frame, and as the favor with which the
+/// point is handed on. Where the target has visibility, it is seen.
 FN void trace_shadow_of_chosen(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
     Reservoir chosen = load_reservoir(pass.reservoirs, index);
@@ -137,9 +138,12 @@ FN void trace_shadow_of_chosen(uvec2 pixel, IN(ResamplingPass) pass) {
     vertex.occluded = is_light_hidden(vertex.origin, light, ray_alpha_key(random, 1u)) ? 1u : 0u;
     vertex.rays += 1u;
     store_first_vertex(index, vertex);
+    float favor = MUTANT(FAVOR_UNASKED, vertex.occluded != 0u ? FAVOR_HIDDEN : 1.0f, 1.0f);
     bool hands_on = MUTANT(FINAL_CULL, constants.resampling.visibility != VISIBILITY_BIASED_FINAL, false);
-    if (vertex.occluded != 0u && !hands_on) {
-        chosen.weight = 0.0f;
+    bool drops = vertex.occluded != 0u && !hands_on;
+    if (favor != chosen.favor || drops) {
+        chosen.favor = favor;
+        chosen.weight = drops ? 0.0f : chosen.weight;
         store_reservoir(pass.reservoirs, index, chosen);
     }
 }

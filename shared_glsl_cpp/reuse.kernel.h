@@ -2,7 +2,7 @@
 //
 // What keeps this unbiased: a neighbour takes part, with its confidence, whatever its reservoir holds; whether it takes part depends on
 // geometry alone; and its share of a light point is the target at the surface, among the lights and past the occluders, that its
-// reservoir was made for.
+// reservoir was made for. Its favor is in none of these, and what is chosen loses it again.
 #ifndef REUSE_KERNEL_H
 #define REUSE_KERNEL_H
 
@@ -58,7 +58,8 @@ FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, fl
                 float share = MUTANT(REUSE_ONE_OVER_M,
                                      pairwise_neighbor_share(r.confidence, r.target, own.confidence, here, others_confidence),
                                      r.confidence / (others_confidence + own.confidence));
-                add_candidate(chosen, r.point, here, share * here * r.weight, pick_number(random, dimension, i));
+                add_favored_candidate(chosen, r.point, here, share * here * r.weight, r.favor,
+                                      pick_number(random, dimension, i));
             }
         }
         if (own_target > 0.0f) {
@@ -69,8 +70,8 @@ FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, fl
         }
     }
     if (own_target > 0.0f) {
-        add_candidate(chosen, own.point, own_target, own_share * own_target * own.weight,
-                      pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
+        add_favored_candidate(chosen, own.point, own_target, own_share * own_target * own.weight, own.favor,
+                              pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
     }
     return end_resampling(chosen, 1.0f, others_confidence + own.confidence);
 }
@@ -100,14 +101,14 @@ FN Reservoir merge_balance(IN(TargetSurface) own_surface, IN(Reservoir) own, flo
         float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
         float total = total_at(r.point, own.confidence, here, others, true, rays);
         if (here > 0.0f && r.target > 0.0f) {
-            add_candidate(chosen, r.point, here, r.confidence * r.target / total * here * r.weight,
-                          pick_number(random, dimension, i));
+            add_favored_candidate(chosen, r.point, here, r.confidence * r.target / total * here * r.weight, r.favor,
+                                  pick_number(random, dimension, i));
         }
     }
     if (own_target > 0.0f) {
         float total = total_at(own.point, own.confidence, own_target, others, true, rays);
-        add_candidate(chosen, own.point, own_target, own.confidence * own_target / total * own_target * own.weight,
-                      pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
+        add_favored_candidate(chosen, own.point, own_target, own.confidence * own_target / total * own_target * own.weight, own.favor,
+                              pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
     }
     return end_resampling(chosen, 1.0f, others_confidence + own.confidence);
 }
@@ -122,12 +123,13 @@ FN Reservoir merge_by_confidence(IN(TargetSurface) own_surface, IN(Reservoir) ow
         Reservoir r = neighbor_reservoir(others, i);
         if (r.weight > 0.0f) {
             float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
-            add_candidate(chosen, r.point, here, r.confidence * here * r.weight, pick_number(random, dimension, i));
+            add_favored_candidate(chosen, r.point, here, r.confidence * here * r.weight, r.favor,
+                                  pick_number(random, dimension, i));
         }
     }
     if (own_target > 0.0f) {
-        add_candidate(chosen, own.point, own_target, own.confidence * own_target * own.weight,
-                      pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
+        add_favored_candidate(chosen, own.point, own_target, own.confidence * own_target * own.weight, own.favor,
+                              pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
     }
     float confidence = others_confidence + own.confidence;
     float total = confidence;

@@ -44,7 +44,7 @@ std::vector<Watched> watch(const ChainCase& c, std::uint32_t frames, const MakeR
 
 bool alike(const shared::Reservoir& a, const shared::Reservoir& b) {
     const glm::vec2 apart = glm::abs(a.point.uv - b.point.uv);
-    return a.point.light == b.point.light && apart.x <= 1e-4F && apart.y <= 1e-4F &&
+    return a.point.light == b.point.light && a.favor == b.favor && apart.x <= 1e-4F && apart.y <= 1e-4F &&
            std::abs(a.weight - b.weight) <= 1e-3F * std::max(a.weight, b.weight) &&
            std::abs(a.confidence - b.confidence) <= 1e-4F * std::max(a.confidence, b.confidence);
 }

@@ -20,9 +20,13 @@ FN void probe_reservoir(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_bits(o, floatBitsToUint(s.target));
     put_relative(o, s.weight_sum);
     put(o, s.weight_lost, s.weight_sum);
+    y.light = p.words.z;
+    add_favored_candidate(s, y, p.u.z, p.u.w, FAVOR_HIDDEN + p.u.x, p.u.z);
+    put_bits(o, floatBitsToUint(s.favor));
     Reservoir r = end_resampling(s, 0.5f, 3.0f);
     put_bits(o, r.point.light);
     put_relative(o, r.weight);
+    put_bits(o, floatBitsToUint(r.favor));
 }
 
 FN void probe_pairwise_shares(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
@@ -141,7 +145,7 @@ FN void probe_light_cluster(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
 }
 
 #define RESAMPLING_PROBES(X)                                                                                           \
-    X(reservoir, 8, 50, "a sum, a division, a product")                                                                \
+    X(reservoir, 8, 50, "sums, a division, products")                                                                \
     X(pairwise_shares, 24, 0, "three divisions")                                                                       \
     X(unit_vector_packing, 8, 100, "a normalize; a coordinate may round to the next step")                             \
     X(color_packing, 8, 100, "a product; a channel may round to the next step")                                        \

@@ -1,4 +1,9 @@
 // What a pass hands on instead of having the next one work it out again is what that would come to.
+#include <cstdio>
+#include <map>
+#include <set>
+#include <tuple>
+
 #include "backend/resampling_stages.h"
 #include "chain_cases.h"
 
@@ -48,6 +53,43 @@ RenderSettings settings_of(Integrator integrator) {
     return settings;
 }
 
+/// Which share of the points that pixels end with is hidden, once there is a past; `favors`: whether it is remembered.
+double share_hidden(const Scene& scene, bool favors) {
+    Chain chain(scene, settings_of(Integrator::restir));
+    double hidden = 0;
+    double chosen = 0;
+    int wrong = 0;
+    for (std::uint32_t frame = 0; frame < 64; ++frame) {
+        chain.run_frame(frame, [&](const ResamplingStep& step) {
+            if (step.stage != ResamplingStage::shadows) {
+                return;
+            }
+            chain.for_pixels([&](std::uint32_t index, shared::uvec2) {
+                auto reservoir = chain.kernel.load_reservoir(resulting_set(step), index);
+                if (!(reservoir.weight > 0)) {
+                    return;
+                }
+                const bool is_hidden = chain.kernel.load_first_vertex(index).occluded != 0;
+                wrong += reservoir.favor == (is_hidden ? shared::FAVOR_HIDDEN : 1.0F) ? 0 : 1;
+                hidden += frame > 3 && is_hidden ? 1 : 0;
+                chosen += frame > 3 ? 1 : 0;
+                if (!favors) {
+                    reservoir.favor = 1;
+                    chain.kernel.store_reservoir(resulting_set(step), index, reservoir);
+                }
+            });
+        });
+    }
+    CHECK(wrong == 0);
+    return hidden / chosen;
+}
+
+using PointKey = std::tuple<std::uint32_t, float, float>;
+
+PointKey key_of(const shared::LightPoint& point) {
+    return {point.light, point.uv.x, point.uv.y};
+}
+
 }  // namespace
 
 TEST_CASE("A reservoir's target is that of its point at its surface, after every pass") {
@@ -74,6 +116,54 @@ TEST_CASE("A reservoir's target is that of its point at its surface, after every
         });
     }
     CHECK(checked > 1000);
+}
+
+TEST_CASE("What a merge chooses keeps the favor that it came with") {
+    RenderSettings settings = settings_of(Integrator::restir);
+    settings.resampling.mis = GENERATE(ResamplingMis::pairwise, ResamplingMis::balance, ResamplingMis::one_over_z);
+    settings.resampling.spatial_passes = 2;
+    CAPTURE(static_cast<int>(settings.resampling.mis));
+    Chain chain(generated("many-lights", 300), settings);
+    int disfavored = 0;
+    for (std::uint32_t frame = 0; frame < 4; ++frame) {
+        chain.run_frame(frame, [&](const ResamplingStep& step) {
+            const bool temporal = step.stage == ResamplingStage::temporal;
+            if (!temporal && step.stage != ResamplingStage::spatial) {
+                return;
+            }
+            const std::uint32_t others = temporal ? step.pass.other_reservoirs : step.pass.reservoirs;
+            std::map<PointKey, std::set<float>> came_with;
+            chain.for_pixels([&](std::uint32_t index, shared::uvec2) {
+                const auto reservoir = chain.kernel.load_reservoir(others, index);
+                if (reservoir.weight > 0) {
+                    came_with[key_of(reservoir.point)].insert(reservoir.favor);
+                }
+            });
+            int wrong = 0;
+            chain.for_pixels([&](std::uint32_t index, shared::uvec2) {
+                const auto reservoir = chain.kernel.load_reservoir(resulting_set(step), index);
+                if (!(reservoir.weight > 0)) {
+                    return;
+                }
+                const auto found = came_with.find(key_of(reservoir.point));
+                const std::set<float> expected = found == came_with.end() ? std::set<float>{1.0F} : found->second;
+                wrong += expected.count(reservoir.favor) == 1 ? 0 : 1;
+                disfavored += expected.size() == 1 && reservoir.favor == shared::FAVOR_HIDDEN ? 1 : 0;
+            });
+            CAPTURE(frame, static_cast<int>(step.stage), step.pass.iteration);
+            CHECK(wrong == 0);
+        });
+    }
+    CHECK(disfavored > 100);
+}
+
+TEST_CASE("Points that proved hidden give way to those that were seen") {
+    for (const Scene& scene : {generated("many-lights", 300), generated("many-lights", 3000), slats(true)}) {
+        const double without = share_hidden(scene, false);
+        const double with = share_hidden(scene, true);
+        std::printf("%s: hidden %.3f, %.3f where it is forgotten\n", scene.name.c_str(), with, without);
+        CHECK(with < 0.97 * without);
+    }
 }
 
 TEST_CASE("A picker that goes on from the sum over its clusters gives the densities of the one that made it") {
