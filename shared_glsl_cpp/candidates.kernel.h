@@ -157,7 +157,7 @@ FN void share_with_material(IN(FirstSurface) first, IN(LightPicker) picker, IN(B
     }
     float target = candidate_target(first, light, value.value);
     Resampling chosen = begin_resampling();
-    add_candidate(chosen, reservoir.point, target, (1.0f - share) * target * reservoir.weight, 0.0f);
+    add_reservoir(chosen, reservoir, target, 1.0f - share, 0.0f);
     reservoir = initial_reservoir(chosen);
 }
 

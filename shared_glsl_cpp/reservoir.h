@@ -91,12 +91,17 @@ FN void add_candidate(INOUT(Resampling) s, IN(LightPoint) point, float target, f
     add_favored_candidate(s, point, target, w, 1.0f, u);
 }
 
+/// What another resampling chose, where its point has the target `target`, with the share m.
+FN void add_reservoir(INOUT(Resampling) s, IN(Reservoir) r, float target, float m, float u) {
+    add_favored_candidate(s, r.point, target, m * target * r.weight, r.favor, u);
+}
+
 /// W = scale · Σw / (p̂(y) · y's favor).
 FN Reservoir end_resampling(IN(Resampling) s, float scale, float confidence) {
     Reservoir r;
     r.point = s.point;
-    float share = s.target * MUTANT(FAVOR_STAYS, s.favor, 1.0f);
-    r.weight = s.target > 0.0f ? scale * (s.weight_sum / share) : 0.0f;
+    float chosen_by = s.target * MUTANT(FAVOR_STAYS, s.favor, 1.0f);
+    r.weight = s.target > 0.0f ? scale * (s.weight_sum / chosen_by) : 0.0f;
     r.weight = MUTANT(RESERVOIR_CLAMPED, r.weight, min(r.weight, 1.0f));
     r.confidence = confidence;
     r.target = s.target;

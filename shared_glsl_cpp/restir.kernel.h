@@ -90,7 +90,7 @@ FN void add_bsdf_candidate(IN(CandidateRequest) request, IN(ResamplingPass) pass
     uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 2u * pass.iteration + 1u);
     Reservoir before = load_reservoir(pass.reservoirs, index);
     Resampling chosen = begin_resampling();
-    add_candidate(chosen, before.point, before.target, before.target * before.weight, 0.0f);
+    add_reservoir(chosen, before, before.target, 1.0f, 0.0f);
     add_candidate(chosen, found.point, target, target / (found.pdf + pdf_picked), unit_float(pick.x));
     store_reservoir(pass.reservoirs, index, initial_reservoir(chosen));
 }

@@ -58,8 +58,7 @@ FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, fl
                 float share = MUTANT(REUSE_ONE_OVER_M,
                                      pairwise_neighbor_share(r.confidence, r.target, own.confidence, here, others_confidence),
                                      r.confidence / (others_confidence + own.confidence));
-                add_favored_candidate(chosen, r.point, here, share * here * r.weight, r.favor,
-                                      pick_number(random, dimension, i));
+                add_reservoir(chosen, r, here, share, pick_number(random, dimension, i));
             }
         }
         if (own_target > 0.0f) {
@@ -70,8 +69,8 @@ FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, fl
         }
     }
     if (own_target > 0.0f) {
-        add_favored_candidate(chosen, own.point, own_target, own_share * own_target * own.weight, own.favor,
-                              pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
+        add_reservoir(chosen, own, own_target, own_share,
+                      pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
     }
     return end_resampling(chosen, 1.0f, others_confidence + own.confidence);
 }
@@ -101,14 +100,13 @@ FN Reservoir merge_balance(IN(TargetSurface) own_surface, IN(Reservoir) own, flo
         float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
         float total = total_at(r.point, own.confidence, here, others, true, rays);
         if (here > 0.0f && r.target > 0.0f) {
-            add_favored_candidate(chosen, r.point, here, r.confidence * r.target / total * here * r.weight, r.favor,
-                                  pick_number(random, dimension, i));
+            add_reservoir(chosen, r, here, r.confidence * r.target / total, pick_number(random, dimension, i));
         }
     }
     if (own_target > 0.0f) {
         float total = total_at(own.point, own.confidence, own_target, others, true, rays);
-        add_favored_candidate(chosen, own.point, own_target, own.confidence * own_target / total * own_target * own.weight, own.favor,
-                              pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
+        add_reservoir(chosen, own, own_target, own.confidence * own_target / total,
+                      pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
     }
     return end_resampling(chosen, 1.0f, others_confidence + own.confidence);
 }
@@ -123,13 +121,12 @@ FN Reservoir merge_by_confidence(IN(TargetSurface) own_surface, IN(Reservoir) ow
         Reservoir r = neighbor_reservoir(others, i);
         if (r.weight > 0.0f) {
             float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
-            add_favored_candidate(chosen, r.point, here, r.confidence * here * r.weight, r.favor,
-                                  pick_number(random, dimension, i));
+            add_reservoir(chosen, r, here, r.confidence, pick_number(random, dimension, i));
         }
     }
     if (own_target > 0.0f) {
-        add_favored_candidate(chosen, own.point, own_target, own.confidence * own_target * own.weight, own.favor,
-                              pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
+        add_reservoir(chosen, own, own_target, own.confidence,
+                      pick_number(random, dimension, RESAMPLING_MAX_NEIGHBORS));
     }
     float confidence = others_confidence + own.confidence;
     float total = confidence;

@@ -15,13 +15,17 @@ FN void probe_reservoir(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     y.uv = vec2(p.u.x, p.u.y);
     add_candidate(s, y, abs(p.number), p.special, p.u.z);
     y.light = p.words.y;
-    add_candidate(s, y, p.u.w, p.u.x, p.u.y);
+    add_favored_candidate(s, y, p.u.w, p.u.x, FAVOR_HIDDEN, p.u.y);
+    put_bits(o, floatBitsToUint(s.favor));
     put_bits(o, s.point.light);
     put_bits(o, floatBitsToUint(s.target));
     put_relative(o, s.weight_sum);
     put(o, s.weight_lost, s.weight_sum);
-    y.light = p.words.z;
-    add_favored_candidate(s, y, p.u.z, p.u.w, FAVOR_HIDDEN + p.u.x, p.u.z);
+    Reservoir other = empty;
+    other.point.light = p.words.z;
+    other.weight = p.u.w;
+    other.favor = FAVOR_HIDDEN + p.u.x;
+    add_reservoir(s, other, p.u.z, p.u.y, p.u.z);
     put_bits(o, floatBitsToUint(s.favor));
     Reservoir r = end_resampling(s, 0.5f, 3.0f);
     put_bits(o, r.point.light);
@@ -145,7 +149,7 @@ FN void probe_light_cluster(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
 }
 
 #define RESAMPLING_PROBES(X)                                                                                           \
-    X(reservoir, 8, 50, "sums, a division, products")                                                                \
+    X(reservoir, 8, 50, "sums, a division, products")                                                                  \
     X(pairwise_shares, 24, 0, "three divisions")                                                                       \
     X(unit_vector_packing, 8, 100, "a normalize; a coordinate may round to the next step")                             \
     X(color_packing, 8, 100, "a product; a channel may round to the next step")                                        \
