@@ -71,6 +71,10 @@ void add_integrator_option(CLI::App& command, RenderArguments& arguments) {
 void add_scene_options(CLI::App& command, RenderArguments& arguments) {
     RenderRequest& request = arguments.request;
     command.add_option("--brdf", arguments.brdf, "Microfacet model: ggx or blinn-phong")->capture_default_str();
+    command
+        .add_option("--normal-maps", arguments.normal_maps,
+                    "What a normal map does: shading by its normal, or microfacet (facets that keep all energy)")
+        ->capture_default_str();
     arguments.panel_options.push_back(
         command.add_option("--sampler", arguments.sampler, "independent, hammersley or sobol")->capture_default_str());
     arguments.panel_options.push_back(
@@ -139,6 +143,7 @@ void resolve_names(RenderArguments& arguments) {
     RenderSettings& settings = request.settings;
     settings.integrator = integrator_from_name(arguments.integrator);
     settings.brdf = brdf_from_name(arguments.brdf);
+    settings.normal_maps = normal_maps_from_name(arguments.normal_maps);
     settings.sampler = sampler_from_name(arguments.sampler);
     settings.mis = mis_from_name(arguments.mis);
     resolve_resampling_names(arguments);

@@ -20,6 +20,7 @@ struct RenderArguments {
     RenderRequest request;
     std::string integrator = "path";
     std::string brdf = "ggx";
+    std::string normal_maps = "shading";
     std::string sampler = "sobol";
     std::string mis = "power";
     std::string resampling_mis = "pairwise";

@@ -89,6 +89,36 @@ FN bool bsdf_is_purely_delta(IN(BsdfParameters) p, uint features) {
     return bsdf_is_mirror(p, features) && !(max_component(p.diffuse) > 0.0f);
 }
 
+/// The microfacet lobe that is not a mirror: F D G2 / (4 cos_o), which is f cos_i, and its pdf. Directions above the horizon.
+FN BsdfValue microfacet_eval_pdf(IN(BsdfParameters) p, vec3 wo, vec3 wi, vec3 h, float o_dot_h, vec3 fresnel, uint features) {
+    BsdfValue r;
+    r.value = vec3(0.0f, 0.0f, 0.0f);
+    r.pdf = 0.0f;
+    float alpha = clamp(p.alpha, ALPHA_MIRROR, 1.0f);
+    if (bsdf_is_blinn_phong(p, features)) {
+        r.value = fresnel * blinn_phong_eval(wo, wi, h, alpha);
+        r.pdf = pdf_blinn_phong_solid_angle(o_dot_h, h, alpha);
+    } else if ((features & FEATURE_GGX) != 0u) {
+        r.value = fresnel * ggx_eval(wo, wi, h, alpha);
+        r.pdf = pdf_ggx_solid_angle(wo, h, alpha);
+    }
+    return r;
+}
+
+/// The same of any two directions.
+FN BsdfValue microfacet_eval_pdf(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint features) {
+    BsdfValue r;
+    r.value = vec3(0.0f, 0.0f, 0.0f);
+    r.pdf = 0.0f;
+    if (!(wo.z > COS_MIN && wi.z > COS_MIN)) {
+        return r;
+    }
+    vec3 sum = wo + wi;
+    float sum_length = length(sum);
+    float o_dot_h = 0.5f * sum_length;
+    return microfacet_eval_pdf(p, wo, wi, sum / sum_length, o_dot_h, fresnel_schlick(p.f0, p.f90, o_dot_h), features);
+}
+
 /// eval and pdf of the lobes that are not delta. `p_specular` is bsdf_specular_probability of wo.
 FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, float p_specular, vec3 wi, uint features) {
     BsdfValue r;
@@ -111,14 +141,9 @@ FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, float p_specular
     r.value = p.diffuse * (vec3(1.0f, 1.0f, 1.0f) - fresnel) * (INV_PI * wi.z);
     r.pdf = (1.0f - p_specular) * pdf_cosine_hemisphere_solid_angle(wi.z);
     if (!bsdf_is_mirror(p, features)) {
-        float alpha = clamp(p.alpha, ALPHA_MIRROR, 1.0f);
-        if (bsdf_is_blinn_phong(p, features)) {
-            r.value += fresnel * blinn_phong_eval(wo, wi, h, alpha);
-            r.pdf += p_specular * pdf_blinn_phong_solid_angle(o_dot_h, h, alpha);
-        } else if ((features & FEATURE_GGX) != 0u) {
-            r.value += fresnel * ggx_eval(wo, wi, h, alpha);
-            r.pdf += p_specular * pdf_ggx_solid_angle(wo, h, alpha);
-        }
+        BsdfValue microfacets = microfacet_eval_pdf(p, wo, wi, h, o_dot_h, fresnel, features);
+        r.value += microfacets.value;
+        r.pdf += p_specular * microfacets.pdf;
     }
     return r;
 }
@@ -149,6 +174,28 @@ FN BsdfSample bsdf_null_sample() {
     return s;
 }
 
+FN BsdfSample bsdf_sample_mirror(IN(BsdfParameters) p, vec3 wo, float p_specular) {
+    BsdfSample s;
+    s.direction = vec3(-wo.x, -wo.y, wo.z);
+    s.weight = fresnel_schlick(p.f0, p.f90, wo.z) / p_specular;
+    s.pdf = p_specular;
+    s.delta = 1u;
+    s.lobe = LOBE_MIRROR;
+    return s;
+}
+
+/// Normal of the microfacet that the specular lobe reflects wo off.
+FN vec3 sample_microfacet_normal(IN(BsdfParameters) p, vec3 wo, vec2 u, uint features) {
+    float alpha = clamp(p.alpha, ALPHA_MIRROR, 1.0f);
+    if (bsdf_is_blinn_phong(p, features)) {
+        return sample_blinn_phong_normal(alpha, u);
+    }
+    if ((features & FEATURE_GGX) != 0u) {
+        return sample_ggx_visible_normal(wo, alpha, u);
+    }
+    return vec3(0.0f, 0.0f, 0.0f);
+}
+
 /// A direction by one of the lobes; a facet that reflects below the horizon gives a null sample, never a retry. `p_specular` is
 /// bsdf_specular_probability of wo.
 FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float p_specular, float u_lobe, vec2 u, uint features) {
@@ -158,21 +205,10 @@ FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float p_specular,
     }
     bool specular = bsdf_may_be_specular(features) && u_lobe < p_specular;
     if (specular && bsdf_is_mirror(p, features)) {
-        s.direction = vec3(-wo.x, -wo.y, wo.z);
-        s.weight = fresnel_schlick(p.f0, p.f90, wo.z) / p_specular;
-        s.pdf = p_specular;
-        s.delta = 1u;
-        s.lobe = LOBE_MIRROR;
-        return s;
+        return bsdf_sample_mirror(p, wo, p_specular);
     }
     if (specular) {
-        float alpha = clamp(p.alpha, ALPHA_MIRROR, 1.0f);
-        vec3 h = vec3(0.0f, 0.0f, 0.0f);
-        if (bsdf_is_blinn_phong(p, features)) {
-            h = sample_blinn_phong_normal(alpha, u);
-        } else if ((features & FEATURE_GGX) != 0u) {
-            h = sample_ggx_visible_normal(wo, alpha, u);
-        }
+        vec3 h = sample_microfacet_normal(p, wo, u, features);
         float o_dot_h = dot(wo, h);
         if (!(o_dot_h > 0.0f)) {
             return s;

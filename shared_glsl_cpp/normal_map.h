@@ -1,108 +1,57 @@
-// Normals that fit the direction they are seen from, and the facets that stand for a normal map (Schüssler, Heitz,
-// Hanika and Dachsbacher 2017, Microfacet-based normal mapping): the mapped facet p, and upright on the surface the
-// tangent facet t, a perfect mirror, which closes the gap so that no light is lost to black. Theirs follows light over a few facets
-// and drops the rest; here what p reflects leaves after one more mirror at most, so that a map takes no energy at any tilt
-// (docs/decisions/0007). World space, unit vectors.
+// Shading by a normal map's normal, as glTF means it, kept free of its artefacts: reflections that would go below the surface, and light
+// that ends abruptly where it sinks below the surface (docs/integrand.md, "Normal maps"; docs/decisions/0020). World space, unit vectors; ng is
+// the triangle's normal on wo's side.
 #ifndef NORMAL_MAP_H
 #define NORMAL_MAP_H
 
-#include "elementary.h"
+#include "shading_normal.h"
 
 SHARED_BEGIN
 
-CONST float BENT_COS = 1.0e-3f;   // of wo to the normal it is shaded with, at the least
-CONST float FACET_COS = 1.0e-2f;  // of the mapped facet to the surface, at the least
+CONST float REFLECTION_COS = 0.1f;       // a mirror reflection about the specular normal has at least this cosine to ng, or
+CONST float REFLECTION_COS_SHARE = 0.9f; // this share of wo's own
+CONST float TERMINATOR_RANGE = 0.3f;
 
-/// The unit vector nearest to v whose cosine to the unit `axis` is at least `cos_min`; `axis` itself where v opposes
-/// it.
-FN vec3 bend_toward(vec3 v, vec3 axis, float cos_min) {
-    float c = dot(v, axis);
-    if (c >= cos_min) {
-        return v;
+/// q of the integrand's equation 1: n, turned towards ng until wo's mirror direction leaves the surface. Cycles bends normals to the same
+/// end. Between ng and n the mirror direction's cosine to ng is r cos(2a - phi), with a the angle from ng, so the largest a that will
+/// do has a closed form.
+FN vec3 specular_normal(vec3 n, vec3 ng, vec3 wo) {
+    float cos_o = dot(wo, ng);
+    float cos_n = dot(n, ng);
+    float least = min(REFLECTION_COS_SHARE * cos_o, REFLECTION_COS);
+    if (2.0f * dot(wo, n) * cos_n - cos_o >= least) {
+        return n;
     }
-    vec3 across = v - c * axis;
+    vec3 across = n - cos_n * ng;
     float across2 = dot(across, across);
     if (!(across2 > 1.0e-12f)) {
-        return axis;
+        return ng;
     }
-    return normalize(cos_min * axis + (safe_sqrt(1.0f - cos_min * cos_min) * inversesqrt(across2)) * across);
+    vec3 e = across * inversesqrt(across2);
+    // wo in the plane of ng and e is r (cos phi, sin phi); the angle 2a is phi + acos(least / r).
+    float along = dot(wo, e);
+    float r2 = cos_o * cos_o + along * along;
+    float rest = safe_sqrt(r2 - least * least);
+    float cos_2a = (cos_o * least - along * rest) / r2;
+    float sin_2a = (along * least + cos_o * rest) / r2;
+    return normalize((1.0f + cos_2a) * ng + sin_2a * e);
 }
 
-/// The normal to shade with: ns, turned just so far that wo is above it. At the silhouette of a coarse smooth mesh wo
-/// sees the triangle but is below the interpolated normal's horizon, and the surface would be black. ng: on wo's side.
-FN vec3 bent_normal(vec3 ns, vec3 ng, vec3 wo) {
-    vec3 n = bend_toward(ns, wo, BENT_COS);
-    return dot(n, ng) > 0.0f ? n : ng;
-}
-
-struct MappedNormal {
-    vec3 normal;   // of the surface, g
-    vec3 facet;    // p
-    vec3 tangent;  // t, across g, leaning against p
-    float cosine;  // p·g
-    float sine;
-    uint tilted;  // 0: p is g, and the rest is void
-};
-
-/// `normal` is the shading normal as bent; the mapped one is turned along with it.
-FN MappedNormal make_mapped_normal(vec3 shading_normal, vec3 normal, vec3 mapped_normal) {
-    MappedNormal m;
-    m.normal = normal;
-    // The rotation of shading_normal onto normal.
-    vec3 both = shading_normal + normal;
-    float turn = dot(both, mapped_normal) / (1.0f + dot(shading_normal, normal));
-    vec3 p = mapped_normal + 2.0f * dot(shading_normal, mapped_normal) * normal - turn * both;
-    m.facet = bend_toward(normalize(p), normal, FACET_COS);
-    m.cosine = dot(m.facet, normal);
-    vec3 across = m.facet - m.cosine * normal;
-    float across2 = dot(across, across);
-    m.tilted = across2 > 1.0e-10f ? 1u : 0u;
-    m.sine = sqrt(across2);
-    m.tangent = normalize(-across / max(m.sine, 1.0e-5f));
-    return m;
-}
-
-/// Probability that what arrives along w meets the mapped facet, not the tangent one.
-FN float mapped_facet_probability(IN(MappedNormal) m, vec3 w) {
-    float p = max(dot(w, m.facet), 0.0f);
-    float t = max(dot(w, m.tangent), 0.0f) * m.sine;
-    return p > 0.0f ? p / (p + t) : 0.0f;
-}
-
-/// Masking of w by the other facet.
-FN float mapped_masking(IN(MappedNormal) m, vec3 w) {
-    float p = max(dot(w, m.facet), 0.0f);
-    float t = max(dot(w, m.tangent), 0.0f) * m.sine;
-    float g = max(dot(w, m.normal), 0.0f) * m.cosine;
-    return g < p + t ? g / (p + t) : 1.0f;
-}
-
-/// Off the mirror of the tangent facet; its own inverse.
-FN vec3 mapped_reflect(IN(MappedNormal) m, vec3 w) {
-    return normalize(w - 2.0f * dot(w, m.tangent) * m.tangent);
-}
-
-/// Off the mirror of the surface itself: how light leaves that the facet sent below; its own inverse.
-FN vec3 mapped_lift(IN(MappedNormal) m, vec3 w) {
-    return normalize(w - 2.0f * dot(w, m.normal) * m.normal);
-}
-
-/// Ways to leave: straight off the mapped facet, by the tangent one, by the surface.
-CONST uint MAPPED_EXITS = 3u;
-
-/// For what leaves along `wi`, above the surface: how the mapped facet sent it, and the share of that direction that goes this way.
-FN float mapped_exit(IN(MappedNormal) m, vec3 wi, uint exit, OUT(vec3) sent) {
-    if (exit == 0u) {
-        sent = wi;
-        return mapped_masking(m, wi);
+/// S of equations 2 and 3: 1 for light well above the surface, falling to 0 at its horizon, over a range that grows with the tilt of n and
+/// with `width`. After Chiang, Li and Burley 2019, whose factor acts on all directions.
+FN float terminator_factor(vec3 n, vec3 ng, vec3 wi, float width) {
+    vec3 sine = cross(n, ng);
+    float range = TERMINATOR_RANGE * width * length(sine) * dot(wi, n);
+    float cos_i = dot(wi, ng);
+    if (!(cos_i < range)) {
+        return 1.0f;
     }
-    if (exit == 1u) {
-        sent = mapped_reflect(m, wi);
-        return dot(wi, m.tangent) > 0.0f ? 1.0f - mapped_masking(m, sent) : 0.0f;
-    }
-    sent = mapped_lift(m, wi);
-    return dot(sent, m.facet) > 0.0f ? 1.0f : 0.0f;
+    float x = max(cos_i, 0.0f) / range;
+    return MUTANT(HARD_TERMINATOR, x + x * x * (1.0f - x), 1.0f);
 }
+
+/// Off the surface itself: how light leaves that a lobe sent below; its own inverse.
+FN vec3 reflect_off(vec3 ng, vec3 w) { return w - 2.0f * dot(w, ng) * ng; }
 
 SHARED_END
 

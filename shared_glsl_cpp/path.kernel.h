@@ -236,7 +236,7 @@ FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
     Surface surface = load_surface(hit, instance, path.origin, path.direction);
     LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
     RECORD(position, surface.position);
-    RECORD(barycentrics, vec2(surface.mesh.weights.y, surface.mesh.weights.z));
+    RECORD(barycentrics, surface.mesh.barycentrics);
     add_emission(path, surface, material);
 
     bool last = MUTANT(DEPTH_OFF_BY_ONE, depth == constants.max_depth, depth > constants.max_depth) ||

@@ -8,17 +8,17 @@
 
 #include "fresnel.h"
 #include "ggx.h"
-#include "normal_map.h"
 #include "surface_bsdf.h"
 
 SHARED_BEGIN
 
 CONST float TARGET_COS_MIN = 1.0e-3f;        // floor of cosines to the shading normal; octahedral rounding is below 1e-4
-CONST float TARGET_COS_MIN_MAPPED = 0.1f;    // under a normal map light also comes by the tangent facet
+CONST float TARGET_COS_MIN_FACETS = 0.1f;    // under a microfacet normal map light also comes by the tangent facet
 CONST float TARGET_ALPHA_MIN = 0.001f;       // narrower lobes are widened: octahedral rounding moves their peaks
-CONST float TARGET_ALPHA_MIN_MAPPED = 0.1f;  // under a normal map, as the target lacks the tangent facet's lobes
+CONST float TARGET_ALPHA_MIN_FACETS = 0.1f;  // under such a map, as the target lacks the tangent facet's lobes
 CONST uint REUSE_SURFACE_VALID = 1u;
-CONST uint REUSE_SURFACE_MAPPED = 2u;
+CONST uint REUSE_SURFACE_MAPPED = 2u;        // shaded by a normal map's normal
+CONST uint REUSE_SURFACE_FACETS = 4u;        // by a microfacet normal map
 
 /// Packed: unit vectors octahedral, colours with a shared exponent.
 struct ReuseSurface {
@@ -37,6 +37,7 @@ struct TargetSurface {
     vec3 position;
     vec3 geometric_normal;
     vec3 normal;
+    vec3 specular_normal;  // the same but where a normal map shades
     vec3 wo;
     vec3 diffuse;
     vec3 f0;
@@ -98,29 +99,42 @@ FN ReuseSurface no_reuse_surface() {
 
 FN bool is_valid(IN(ReuseSurface) s) { return (s.rest & REUSE_SURFACE_VALID) != 0u; }
 
+/// The normal of a surface that neighbours are to know.
+FN vec3 reuse_normal(IN(SurfaceBsdf) bsdf, vec3 wo) {
+    if (bsdf.mapped == NORMAL_MAP_SHADING) {
+        return bend_toward(bsdf.mapped_normal, bsdf.geometric_normal, MAPPED_COS);
+    }
+    return bent_normal(bsdf.mapped_normal, bsdf.geometric_normal, wo);
+}
+
 FN ReuseSurface pack_reuse_surface(vec3 position, IN(SurfaceBsdf) bsdf, vec3 wo) {
     ReuseSurface s;
     s.position = position;
     s.geometric_normal = pack_unit_vector(bsdf.geometric_normal);
-    s.normal = pack_unit_vector(bent_normal(bsdf.mapped_normal, bsdf.geometric_normal, wo));
+    s.normal = pack_unit_vector(reuse_normal(bsdf, wo));
     s.wo = pack_unit_vector(wo);
     s.diffuse = pack_color(bsdf.parameters.diffuse);
     s.f0 = pack_color(bsdf.parameters.f0);
     float f90 = clamp(max_component(bsdf.parameters.f90), 0.0f, 1.0f);
     uint f90_bits = min(uint(f90 * 255.0f) + (f90 > 0.0f ? 1u : 0u), 255u);
     uint alpha_bits = uint(clamp(bsdf.parameters.alpha, 0.0f, 1.0f) * 65535.0f);
-    s.rest = REUSE_SURFACE_VALID | (bsdf.mapped != 0u ? REUSE_SURFACE_MAPPED : 0u) | (f90_bits << 8) | (alpha_bits << 16);
+    uint mapped_bits = bsdf.mapped == NORMAL_MAP_SHADING ? REUSE_SURFACE_MAPPED : 0u;
+    mapped_bits = bsdf.mapped == NORMAL_MAP_MICROFACET ? REUSE_SURFACE_FACETS : mapped_bits;
+    s.rest = REUSE_SURFACE_VALID | mapped_bits | (f90_bits << 8) | (alpha_bits << 16);
     return s;
 }
 
 /// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it by the square of
 /// the ratio: a point that others chose by the wide lobe would be a firefly now and then, where sampling the material finds none. So it
-/// would where light comes by a narrow lobe of a normal map's tangent facet. Rounding of wo moves the half vector by as much more as the
+/// would where light comes by a narrow lobe of a microfacet normal map's tangent facet. Rounding of wo moves the half vector by as much more as the
 /// view is grazing.
 FN bool wants_reuse(IN(SurfaceBsdf) bsdf, vec3 wo) {
-    vec3 normal = bent_normal(bsdf.mapped_normal, bsdf.geometric_normal, wo);
+    vec3 normal = reuse_normal(bsdf, wo);
+    if (bsdf.mapped == NORMAL_MAP_SHADING) {
+        normal = specular_normal(normal, bsdf.geometric_normal, wo);
+    }
     bool glossy = max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f;
-    float least = bsdf.mapped != 0u && glossy ? TARGET_ALPHA_MIN_MAPPED : TARGET_ALPHA_MIN;
+    float least = bsdf.mapped == NORMAL_MAP_MICROFACET && glossy ? TARGET_ALPHA_MIN_FACETS : TARGET_ALPHA_MIN;
     return bsdf.parameters.alpha >= least && bsdf.parameters.alpha * dot(normal, wo) >= 0.5f * TARGET_ALPHA_MIN;
 }
 
@@ -135,7 +149,32 @@ FN TargetSurface unpack_reuse_surface(IN(ReuseSurface) s) {
     t.f90 = float((s.rest >> 8) & 255u) * (1.0f / 255.0f);
     t.alpha = max(float(s.rest >> 16) * (1.0f / 65535.0f), TARGET_ALPHA_MIN);
     t.flags = s.rest & 255u;
+    t.specular_normal = t.normal;
+    if ((t.flags & REUSE_SURFACE_MAPPED) != 0u) {
+        t.specular_normal = specular_normal(t.normal, t.geometric_normal, t.wo);
+    }
     return t;
+}
+
+/// Its GGX lobe.
+FN vec3 target_specular(IN(TargetSurface) s, vec3 wi, float least) {
+    float cos_i = clamp(dot(wi, s.specular_normal), least, 1.0f);
+    float cos_o = clamp(dot(s.wo, s.specular_normal), least, 1.0f);
+    vec3 sum = s.wo + wi;
+    float squared = dot(sum, sum);
+    if (!(squared > 1.0e-12f)) {
+        return vec3(0.0f, 0.0f, 0.0f);
+    }
+    vec3 h = sum * inversesqrt(squared);
+    float cos_h = clamp(dot(h, s.specular_normal), 0.0f, 1.0f);
+    vec3 sine_h = cross(h, s.specular_normal);  // its length; 1 - cos_h^2 would cancel in narrow lobes
+    float a2 = s.alpha * s.alpha;
+    float t = dot(sine_h, sine_h) + cos_h * cos_h * a2;
+    float d = INV_PI * a2 / (t * t);
+    float masking_o = cos_i * sqrt(cos_o * cos_o * (1.0f - a2) + a2);
+    float masking_i = cos_o * sqrt(cos_i * cos_i * (1.0f - a2) + a2);
+    vec3 fresnel = fresnel_schlick(s.f0, vec3(s.f90, s.f90, s.f90), dot(s.wo, h));
+    return fresnel * (0.5f * d * cos_i / (masking_o + masking_i));
 }
 
 /// About f cos toward the unit direction wi: Lambert plus GGX, whatever the surface's own model.
@@ -143,24 +182,16 @@ FN vec3 target_reflectance(IN(TargetSurface) s, vec3 wi) {
     if (!(dot(wi, s.geometric_normal) > -TARGET_COS_MIN)) {
         return vec3(0.0f, 0.0f, 0.0f);
     }
-    float least = (s.flags & REUSE_SURFACE_MAPPED) != 0u ? TARGET_COS_MIN_MAPPED : TARGET_COS_MIN;
+    float least = (s.flags & REUSE_SURFACE_FACETS) != 0u ? TARGET_COS_MIN_FACETS : TARGET_COS_MIN;
     float cos_i = clamp(dot(wi, s.normal), least, 1.0f);
-    float cos_o = clamp(dot(s.wo, s.normal), least, 1.0f);
-    vec3 sum = s.wo + wi;
-    float squared = dot(sum, sum);
-    if (!(squared > 1.0e-12f)) {
-        return s.diffuse * (INV_PI * cos_i);
+    vec3 sum = s.diffuse * (INV_PI * cos_i) + target_specular(s, wi, least);
+    if ((s.flags & REUSE_SURFACE_MAPPED) != 0u) {
+        vec3 below = reflect_off(s.geometric_normal, wi);
+        if (dot(below, s.specular_normal) > 0.0f) {
+            sum += target_specular(s, below, least);  // what the lobe sends below the surface
+        }
     }
-    vec3 h = sum * inversesqrt(squared);
-    float cos_h = clamp(dot(h, s.normal), 0.0f, 1.0f);
-    vec3 sine_h = cross(h, s.normal);  // its length; 1 - cos_h^2 would cancel in narrow lobes
-    float a2 = s.alpha * s.alpha;
-    float t = dot(sine_h, sine_h) + cos_h * cos_h * a2;
-    float d = INV_PI * a2 / (t * t);
-    float masking_o = cos_i * sqrt(cos_o * cos_o * (1.0f - a2) + a2);
-    float masking_i = cos_o * sqrt(cos_i * cos_i * (1.0f - a2) + a2);
-    vec3 fresnel = fresnel_schlick(s.f0, vec3(s.f90, s.f90, s.f90), dot(s.wo, h));
-    return s.diffuse * (INV_PI * cos_i) + fresnel * (0.5f * d * cos_i / (masking_o + masking_i));
+    return sum;
 }
 
 /// Whether two first vertices are alike enough for reuse to pay: near to one plane, facing alike. Depends on geometry alone, so it

@@ -28,7 +28,8 @@
     X("resampling", FEATURE_RESAMPLING, 18)            \
     X("motion", FEATURE_MOTION, 19) \
     X("later-vertices", FEATURE_LATER_VERTICES, 20) \
-    X("target-visibility", FEATURE_TARGET_VISIBILITY, 21)
+    X("target-visibility", FEATURE_TARGET_VISIBILITY, 21) \
+    X("microfacet-normal-maps", FEATURE_MICROFACET_NORMAL_MAPS, 22)
 
 SHARED_BEGIN
 #define DECLARE_FEATURE(name, constant, bit) CONST uint constant = 1u << bit;

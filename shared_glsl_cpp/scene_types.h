@@ -218,6 +218,7 @@ struct RenderConstants {
     uint max_depth;     // scattering events
     uint integrator;    // INTEGRATOR_…
     uint brdf;          // BRDF_…
+    uint normal_maps;   // NORMAL_MAP_…
     uint mis;           // MIS_…
     uint light_count;
     uint emissive_triangle_count;
@@ -227,7 +228,7 @@ struct RenderConstants {
     Camera previous_camera;
     ResamplingConstants resampling;
 };
-ASSERT_SIZE(RenderConstants, 256);
+ASSERT_SIZE(RenderConstants, 260);
 
 CONST uint INTEGRATOR_BRDF = 0u;
 CONST uint INTEGRATOR_DIRECT = 1u;
@@ -236,6 +237,10 @@ CONST uint INTEGRATOR_RIS = 3u;     // `path` whose first vertex picks among man
 CONST uint INTEGRATOR_RESTIR = 4u;  // and reuses what its neighbours in time and space picked
 CONST uint BRDF_GGX = 0u;
 CONST uint BRDF_BLINN_PHONG = 1u;
+// What a normal map does to a surface.
+CONST uint NORMAL_MAP_NONE = 0u;
+CONST uint NORMAL_MAP_SHADING = 1u;     // mapped_bsdf.h
+CONST uint NORMAL_MAP_MICROFACET = 2u;  // facet_pair_bsdf.h
 CONST uint MIS_POWER = 0u;
 CONST uint MIS_BALANCE = 1u;
 

@@ -129,11 +129,11 @@ FN vec3 interpolated_normal(IN(Surface) s, IN(Instance) instance) {
     vec3 a = load_normals(first + s.mesh.triangle.x);
     vec3 b = load_normals(first + s.mesh.triangle.y);
     vec3 c = load_normals(first + s.mesh.triangle.z);
-    vec3 n = s.mesh.weights.x * a + s.mesh.weights.y * b + s.mesh.weights.z * c;
+    vec3 n = interpolate(s.mesh, a, b, c);
     return normalize_or(transform_normal(instance, n), s.normal);
 }
 
-/// The normal that a normal map gives about `normal`.
+/// The normal that a normal map gives about `normal`; that one where the mesh has no usable tangent.
 FN vec3 mapped_normal(IN(Surface) s, IN(Instance) instance, IN(Material) material, vec3 normal) {
     uint first = s.mesh.geometry.first_tangent;
     if (first == NONE) {
@@ -142,11 +142,14 @@ FN vec3 mapped_normal(IN(Surface) s, IN(Instance) instance, IN(Material) materia
     vec4 a = load_tangents(first + s.mesh.triangle.x);
     vec4 b = load_tangents(first + s.mesh.triangle.y);
     vec4 c = load_tangents(first + s.mesh.triangle.z);
-    vec3 along = transform_vector(
-        instance, s.mesh.weights.x * xyz(a) + s.mesh.weights.y * xyz(b) + s.mesh.weights.z * xyz(c));
-    Frame fallback = frame_from_normal(normal);
-    vec3 tangent = normalize_or(along - dot(along, normal) * normal, fallback.tangent);
-    float handedness = (a.w < 0.0f) != (instance.mirrored != 0u) ? -1.0f : 1.0f;
+    vec4 t = interpolate(s.mesh, a, b, c);
+    vec3 along = normalize_or(transform_vector(instance, xyz(t)), normal);
+    vec3 across = along - dot(along, normal) * normal;
+    if (!(dot(across, across) > TANGENT_SINE * TANGENT_SINE)) {
+        return normal;
+    }
+    vec3 tangent = normalize_or(across, normal);
+    float handedness = (MUTANT(HANDEDNESS_OF_A_CORNER, t.w, a.w) < 0.0f) != (instance.mirrored != 0u) ? -1.0f : 1.0f;
     vec3 bitangent = cross(normal, tangent) * handedness;
     vec3 m = xyz(slot_value(material.normal_slot, s.mesh)) * 2.0f - vec3(1.0f, 1.0f, 1.0f);
     vec3 n = m.x * material.normal_scale * tangent + m.y * material.normal_scale * bitangent + m.z * normal;
@@ -165,10 +168,10 @@ FN SurfaceBsdf load_bsdf(IN(Surface) s, IN(Instance) instance, IN(Material) mate
                         material.f0, specular, specular_color, constants.brdf);
     vec3 smooth_normal = interpolated_normal(s, instance);
     vec3 bumped = smooth_normal;
-    bsdf.mapped = 0u;
+    bsdf.mapped = NORMAL_MAP_NONE;
     if (feature(FEATURE_NORMAL_MAPS) && material.normal_slot != NONE) {
         bumped = mapped_normal(s, instance, material, smooth_normal);
-        bsdf.mapped = 1u;
+        bsdf.mapped = normal_map_model(constants.normal_maps, smooth_normal, bumped);
     }
     float side = dot(s.normal, wo) < 0.0f ? -1.0f : 1.0f;
     bsdf.geometric_normal = side * s.normal;

@@ -68,22 +68,38 @@ FN vec4 sample_texture(IN(TextureSlot) slot, vec2 uv) {
     vec4 b = texel_fetch(slot.first_texel, y0 + x1, srgb);
     vec4 c = texel_fetch(slot.first_texel, y1 + x0, srgb);
     vec4 d = texel_fetch(slot.first_texel, y1 + x1, srgb);
-    return (1.0f - t) * ((1.0f - s) * a + s * b) + t * ((1.0f - s) * c + s * d);
+    vec4 upper = a + s * (b - a);  // in this form texels that are equal stay what they are
+    vec4 lower = c + s * (d - c);
+    return upper + t * (lower - upper);
 }
 
 /// Where on a mesh a material is read: enough to fetch any attribute.
 struct MeshPoint {
     Geometry geometry;
-    uvec3 triangle;  // vertex numbers within the geometry
-    vec3 weights;    // barycentric, of the three vertices
+    uvec3 triangle;     // vertex numbers within the geometry
+    vec2 barycentrics;  // of the second and third vertex
 };
 
 FN MeshPoint mesh_point(IN(Geometry) geometry, uint primitive, vec2 barycentrics) {
     MeshPoint p;
     p.geometry = geometry;
     p.triangle = load_triangles(geometry.first_triangle + primitive);
-    p.weights = vec3(1.0f - barycentrics.x - barycentrics.y, barycentrics.x, barycentrics.y);
+    p.barycentrics = barycentrics;
     return p;
+}
+
+// An attribute at a point of a mesh, from its values at the corners. An attribute that is equal at all three stays what it is: three
+// weights that sum to just below 1 would open holes where alpha equals its cutoff.
+FN vec2 interpolate(IN(MeshPoint) p, vec2 a, vec2 b, vec2 c) {
+    return a + p.barycentrics.x * (b - a) + p.barycentrics.y * (c - a);
+}
+
+FN vec3 interpolate(IN(MeshPoint) p, vec3 a, vec3 b, vec3 c) {
+    return a + p.barycentrics.x * (b - a) + p.barycentrics.y * (c - a);
+}
+
+FN vec4 interpolate(IN(MeshPoint) p, vec4 a, vec4 b, vec4 c) {
+    return a + p.barycentrics.x * (b - a) + p.barycentrics.y * (c - a);
 }
 
 FN vec2 mesh_uv(IN(MeshPoint) p, uint first_uv) {
@@ -93,7 +109,7 @@ FN vec2 mesh_uv(IN(MeshPoint) p, uint first_uv) {
     vec2 a = load_uvs(first_uv + p.triangle.x);
     vec2 b = load_uvs(first_uv + p.triangle.y);
     vec2 c = load_uvs(first_uv + p.triangle.z);
-    return p.weights.x * a + p.weights.y * b + p.weights.z * c;
+    return interpolate(p, a, b, c);
 }
 
 /// The value of a slot at a point of a mesh; white where there is no texture.
@@ -113,7 +129,7 @@ FN vec4 base_color(IN(Material) material, IN(MeshPoint) p) {
         vec4 a = load_colors(p.geometry.first_color + p.triangle.x);
         vec4 b = load_colors(p.geometry.first_color + p.triangle.y);
         vec4 c = load_colors(p.geometry.first_color + p.triangle.z);
-        color = color * (p.weights.x * a + p.weights.y * b + p.weights.z * c);
+        color = color * interpolate(p, a, b, c);
     }
     return color;
 }

@@ -12,7 +12,7 @@ auto tie_resampling(const ResamplingSettings& r) {
 }
 
 auto tie_settings(const RenderSettings& s) {
-    return std::tie(s.width, s.height, s.integrator, s.brdf, s.sampler, s.mis, s.max_depth, s.sample_count, s.camera,
+    return std::tie(s.width, s.height, s.integrator, s.brdf, s.normal_maps, s.sampler, s.mis, s.max_depth, s.sample_count, s.camera,
                     s.standard_error, s.first_hit_layers, s.generic, s.moves, s.atlas_tile);
 }
 

@@ -17,6 +17,8 @@ namespace {
 void draw_sampling(const Theme& theme, RenderSettings& settings) {
     slider(theme, "Depth", settings.max_depth, 0, 32, "Scattering events at most; 1 is emission and direct light");
     choice(theme, "BRDF", {"GGX", "Blinn-Phong"}, settings.brdf, "Microfacets of metallic-roughness materials");
+    choice(theme, "Normal maps", {"shading", "microfacet"}, settings.normal_maps,
+           "Shading by the mapped normal, or facets that keep all energy");
     int sampler = settings.sampler == SamplerKind::sobol ? 1 : 0;
     // Not Hammersley's points: they are laid out for a number of samples that is known beforehand.
     const std::array<const char*, 2> samplers = {"independent", "Sobol'"};

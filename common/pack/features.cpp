@@ -19,7 +19,7 @@ bool reflects_specularly(const Material& m) {
     return !m.unlit && (m.specular > 0 || m.metallic > 0);
 }
 
-std::uint32_t material_features(const Material& m, BrdfModel model) {
+std::uint32_t material_features(const Material& m, const RenderSettings& settings) {
     std::uint32_t bits = 0;
     for (const TextureSlot* slot : slots_of(m)) {
         if (slot->texture != none) {
@@ -27,7 +27,10 @@ std::uint32_t material_features(const Material& m, BrdfModel model) {
             bits |= slot->uv_set == 1 ? shared::FEATURE_SECOND_UV : 0U;
         }
     }
-    bits |= m.normal_texture.texture != none ? shared::FEATURE_NORMAL_MAPS : 0U;
+    if (m.normal_texture.texture != none) {
+        bits |= shared::FEATURE_NORMAL_MAPS;
+        bits |= settings.normal_maps == NormalMaps::microfacet ? shared::FEATURE_MICROFACET_NORMAL_MAPS : 0U;
+    }
     bits |= m.alpha_mode != AlphaMode::opaque ? shared::FEATURE_ALPHA : 0U;
     if (emits(m)) {
         bits |= shared::FEATURE_EMISSIVE;
@@ -39,7 +42,7 @@ std::uint32_t material_features(const Material& m, BrdfModel model) {
     const bool can_be_mirror =
         m.metallic_roughness_texture.texture != none || m.roughness * m.roughness < shared::ALPHA_MIRROR;
     if (reflects_specularly(m)) {
-        bits |= model == BrdfModel::ggx ? shared::FEATURE_GGX : shared::FEATURE_BLINN_PHONG;
+        bits |= settings.brdf == BrdfModel::ggx ? shared::FEATURE_GGX : shared::FEATURE_BLINN_PHONG;
         bits |= can_be_mirror ? shared::FEATURE_MIRRORS : 0U;
     }
     return bits;
@@ -76,7 +79,7 @@ std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings
         for (const Primitive& primitive : scene.meshes[i].primitives) {
             if (used[i] && !primitive.triangles.empty()) {
                 const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-                bits |= material_features(material, settings.brdf);
+                bits |= material_features(material, settings);
                 bits |= primitive.colors.empty() ? 0U : shared::FEATURE_VERTEX_COLORS;
                 // The radiance of an unlit material also varies with the vertex colours.
                 const bool colored_light = emits(material) && material.unlit && !primitive.colors.empty();

@@ -39,6 +39,7 @@ void pack_settings(const RenderSettings& settings, shared::RenderConstants& c) {
     c.max_depth = settings.max_depth;
     c.integrator = static_cast<std::uint32_t>(settings.integrator);
     c.brdf = static_cast<std::uint32_t>(settings.brdf);
+    c.normal_maps = settings.normal_maps == NormalMaps::shading ? shared::NORMAL_MAP_SHADING : shared::NORMAL_MAP_MICROFACET;
     c.mis = static_cast<std::uint32_t>(settings.mis);
     c.atlas_tile = settings.atlas_tile;
     const ResamplingSettings& from = settings.resampling;

@@ -84,6 +84,7 @@ void add_picture_options(std::string& command, const RenderRequest& request) {
     add_option(command, "--max-depth", settings.max_depth);
     add_option(command, "--seed", settings.seed);
     add_option(command, "--brdf", name_of(settings.brdf));
+    add_option(command, "--normal-maps", name_of(settings.normal_maps));
     const bool oracle = request.backend == "oracle";  // which has no sampler or weights
     if (!oracle) {
         add_option(command, "--sampler", name_of(settings.sampler));
@@ -195,6 +196,7 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("max_depth", settings.max_depth);
     add("seed", settings.seed);
     add("brdf", name_of(settings.brdf));
+    add("normal_maps", name_of(settings.normal_maps));
     add("camera", request.camera);
     add("camera_index", settings.camera);
     add("environment", request.environment);

@@ -7,6 +7,7 @@ namespace diptych {
 
 enum class Integrator { brdf, direct, path, ris, restir };
 enum class BrdfModel { ggx, blinn_phong };
+enum class NormalMaps { shading, microfacet };
 enum class SamplerKind { independent, hammersley, sobol };
 enum class MisHeuristic { power, balance };
 enum class ResamplingMis { pairwise, balance, one_over_z, biased_one_over_m };
@@ -35,6 +36,7 @@ struct RenderSettings {
     int height = 512;
     Integrator integrator = Integrator::path;
     BrdfModel brdf = BrdfModel::ggx;
+    NormalMaps normal_maps = NormalMaps::shading;
     SamplerKind sampler = SamplerKind::sobol;
     MisHeuristic mis = MisHeuristic::power;
     std::uint32_t max_depth = 8;  // scattering events; 1 is emission plus direct light

@@ -29,6 +29,7 @@ constexpr Choice<ResamplingVisibility> resampling_visibility[] = {
     {"biased-initial", ResamplingVisibility::biased_initial},
     {"biased-final", ResamplingVisibility::biased_final}};
 constexpr Choice<BrdfModel> brdfs[] = {{"ggx", BrdfModel::ggx}, {"blinn-phong", BrdfModel::blinn_phong}};
+constexpr Choice<NormalMaps> normal_maps[] = {{"shading", NormalMaps::shading}, {"microfacet", NormalMaps::microfacet}};
 constexpr Choice<SamplerKind> samplers[] = {
     {"independent", SamplerKind::independent}, {"hammersley", SamplerKind::hammersley}, {"sobol", SamplerKind::sobol}};
 constexpr Choice<MisHeuristic> heuristics[] = {{"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}};
@@ -64,6 +65,9 @@ const char* name_of(Integrator integrator) {
 const char* name_of(BrdfModel brdf) {
     return name_in(brdfs, brdf);
 }
+const char* name_of(NormalMaps model) {
+    return name_in(normal_maps, model);
+}
 const char* name_of(SamplerKind sampler) {
     return name_in(samplers, sampler);
 }
@@ -82,6 +86,9 @@ Integrator integrator_from_name(const std::string& name) {
 }
 BrdfModel brdf_from_name(const std::string& name) {
     return value_in(brdfs, "--brdf", name);
+}
+NormalMaps normal_maps_from_name(const std::string& name) {
+    return value_in(normal_maps, "--normal-maps", name);
 }
 SamplerKind sampler_from_name(const std::string& name) {
     return value_in(samplers, "--sampler", name);

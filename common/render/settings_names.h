@@ -9,6 +9,7 @@ namespace diptych {
 
 const char* name_of(Integrator integrator);
 const char* name_of(BrdfModel brdf);
+const char* name_of(NormalMaps model);
 const char* name_of(SamplerKind sampler);
 const char* name_of(MisHeuristic mis);
 const char* name_of(ResamplingMis mis);
@@ -17,6 +18,7 @@ const char* name_of(ResamplingVisibility visibility);
 /// Each throws Error, listing the names there are, where none is `name`.
 Integrator integrator_from_name(const std::string& name);
 BrdfModel brdf_from_name(const std::string& name);
+NormalMaps normal_maps_from_name(const std::string& name);
 SamplerKind sampler_from_name(const std::string& name);
 MisHeuristic mis_from_name(const std::string& name);
 ResamplingMis resampling_mis_from_name(const std::string& name);

@@ -98,6 +98,8 @@ FN void probe_bsdf_parameters(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_same3(o, none.direction);
     put_same3(o, none.weight);
     put_bits(o, floatBitsToUint(none.pdf) | none.delta);
+    BsdfSample mirrored = bsdf_sample_mirror(b, p.wo, 0.5f);
+    put(o, mirrored.direction.z + mirrored.weight.x, 4.0f);
 }
 
 /// Of eval and pdf at unmoved directions: the half vector is then exact but for its length.
@@ -119,6 +121,9 @@ FN void probe_bsdf_eval(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     // Its lobes are weighed by probabilities, which err absolutely, but are LOBE_MIN at least.
     put(o, v.pdf, v.pdf * scale);
     put(o, bsdf_pdf_local(b, p.wo, p.wi, features), v.pdf * scale);
+    BsdfValue microfacets = microfacet_eval_pdf(b, p.wo, p.wi, features);
+    put3(o, microfacets.value, max_component(microfacets.value) * scale);
+    put(o, microfacets.pdf, microfacets.pdf * scale);
 }
 
 /// d ln D / d h: GGX falls as a power of the tangent, Blinn-Phong exponentially, down to its floor.
@@ -160,7 +165,7 @@ FN void probe_bsdf_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     float alpha = clamp(b.alpha, ALPHA_MIRROR, 1.0f);
     float moved = 1.0f;
     if (specular && s.delta == 0u && !bsdf_is_blinn_phong(b, features)) {
-        moved = probe_facet_scale(p.wo, sample_ggx_visible_normal(p.wo, alpha, u), alpha, u);
+        moved = probe_facet_scale(p.wo, sample_microfacet_normal(b, p.wo, u, features | FEATURE_GGX), alpha, u);
     }
     put3(o, s.direction, moved);
     float scale = s.delta != 0u ? 1.0f : moved * probe_moved_scale(b, p.wo, s.direction, features);

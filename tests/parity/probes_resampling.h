@@ -66,7 +66,7 @@ FN ReuseSurface probe_reuse_surface(IN(ProbeInput) p) {
     s.wo = p.words.x ^ (p.words.z & 0x0fff0fffu);
     s.diffuse = p.words.y;
     s.f0 = p.words.z;
-    s.rest = REUSE_SURFACE_VALID | (p.words.w & 0xffff0002u) | 0xff00u;
+    s.rest = REUSE_SURFACE_VALID | (p.words.w & 0xffff0006u) | 0xff00u;
     return s;
 }
 
@@ -81,8 +81,14 @@ FN void probe_target(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     vec3 value = target_reflectance(s, p.light);
     // The lobe's logarithm moves by 4 / alpha for each unit that the half vector does, and that by 2 / |o + i|.
     float scale = 1.0f + 8.0f / (s.alpha * max(length(sum), 1.0e-3f));
+    if ((s.flags & REUSE_SURFACE_MAPPED) != 0u) {
+        scale *= probe_specular_normal_scale(s.normal, s.geometric_normal, s.wo);
+        put_path(o, dot(reflect_off(s.geometric_normal, p.light), s.specular_normal) > 0.0f);
+    }
     if (put_comparable(o, scale)) {
         put3(o, value, max_component(value) * scale);
+        vec3 specular = target_specular(s, p.light, TARGET_COS_MIN);
+        put3(o, specular, max_component(specular) * scale);
     }
 }
 
@@ -105,6 +111,9 @@ FN void probe_pack_surface(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put3(o, t.wo, 256.0f);
     put(o, t.alpha, 256.0f);
     put_path(o, wants_reuse(probe_surface(p), p.view));
+    put_path(o, dot(p.mapped, p.view) >= BENT_COS);
+    put_path(o, dot(p.mapped, p.axis) >= MAPPED_COS);
+    put3(o, reuse_normal(probe_surface(p), p.view), probe_bend_scale(p.mapped, p.view) + probe_bend_scale(p.mapped, p.axis));
 }
 
 FN void probe_projection(IN(ProbeInput) p, INOUT(ProbeOutput) o) {

@@ -17,28 +17,28 @@ FN void probe_bent_normal(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_path(o, dot(bent, p.axis) > 0.0f);
     put3(o, bent, probe_bend_scale(p.shading, p.view));
     put3(o, bent_normal(p.shading, p.axis, p.view), probe_bend_scale(p.shading, p.view));
-    put3(o, bend_toward(p.axis_2, p.axis, FACET_COS), probe_bend_scale(p.axis_2, p.axis));
+    put3(o, bend_toward(p.axis_2, p.axis, MAPPED_COS), probe_bend_scale(p.axis_2, p.axis));
 }
 
 /// How far the mapped facet, and then its tangent, move where the normals do by 1.
-FN float probe_facet_turn_scale(IN(ProbeInput) p, IN(MappedNormal) m) {
+FN float probe_facet_turn_scale(IN(ProbeInput) p, IN(FacetPair) m) {
     return 1.0f + 2.0f / max(1.0f + dot(p.shading, m.normal), 1.0e-6f) + 1.0f / max(m.sine, 1.0e-6f);
 }
 
-FN float probe_tangent_scale(IN(ProbeInput) p, IN(MappedNormal) m) {
+FN float probe_tangent_scale(IN(ProbeInput) p, IN(FacetPair) m) {
     return probe_facet_turn_scale(p, m) / max(m.sine, 1.0e-5f);
 }
 
 /// Of the two probabilities, which divide by what w projects onto both facets.
-FN float probe_mask_scale(IN(MappedNormal) m, vec3 w) {
+FN float probe_mask_scale(IN(FacetPair) m, vec3 w) {
     float projected = max(dot(w, m.facet), 0.0f) + max(dot(w, m.tangent), 0.0f) * m.sine;
     return projected > 0.0f ? 1.0f / projected : 1.0f;
 }
 
-FN void probe_mapped_normal(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
-    MappedNormal m = make_mapped_normal(p.shading, p.shading, p.mapped);
+FN void probe_facet_pair(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    FacetPair m = make_facet_pair(p.shading, p.shading, p.mapped);
     put_path(o, m.tilted != 0u);
-    put_path(o, m.cosine > 1.01f * FACET_COS);
+    put_path(o, m.cosine > 1.01f * MAPPED_COS);
     put3(o, m.facet, probe_facet_turn_scale(p, m));
     put(o, m.cosine, probe_facet_turn_scale(p, m));
     if (m.tilted == 0u) {
@@ -46,20 +46,56 @@ FN void probe_mapped_normal(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     }
     put(o, m.sine, probe_facet_turn_scale(p, m));
     put3(o, m.tangent, probe_tangent_scale(p, m));
-    put(o, mapped_reflect(m, p.view).y, 2.0f * probe_tangent_scale(p, m));
-    put(o, mapped_lift(m, p.view).x, 2.0f);
-    put_path(o, dot(mapped_lift(m, p.view), m.facet) > 0.0f);
+    put(o, tangent_reflect(m, p.view).y, 2.0f * probe_tangent_scale(p, m));
+    put(o, surface_reflect(m, p.view).x, 2.0f);
+    put_path(o, dot(surface_reflect(m, p.view), m.facet) > 0.0f);
     put_path(o, dot(p.view, m.tangent) > 0.0f);
     vec3 sent;
     float exits = 0.0f;
-    for (uint exit = 0u; exit < MAPPED_EXITS; ++exit) {
-        exits += mapped_exit(m, p.view, exit, sent);
+    for (uint exit = 0u; exit < FACET_EXITS; ++exit) {
+        exits += facet_exit(m, p.view, exit, sent);
     }
     float scale = probe_facet_turn_scale(p, m) * probe_mask_scale(m, p.view);
     put_path(o, dot(p.view, m.facet) > 0.0f);
     put(o, mapped_facet_probability(m, p.view), scale);
-    put(o, mapped_masking(m, p.view), scale);
-    put(o, exits, 3.0f * (scale + probe_facet_turn_scale(p, m) * probe_mask_scale(m, mapped_reflect(m, p.view))));
+    put(o, facet_masking(m, p.view), scale);
+    put(o, exits, 3.0f * (scale + probe_facet_turn_scale(p, m) * probe_mask_scale(m, tangent_reflect(m, p.view))));
+}
+
+/// How far the specular normal moves where the directions do by 1.
+FN float probe_specular_normal_scale(vec3 n, vec3 ng, vec3 wo) {
+    vec3 across = n - dot(n, ng) * ng;
+    vec3 q = specular_normal(n, ng, wo);
+    float size = length(across);
+    float cos_o = dot(wo, ng);
+    float along = dot(wo, across) / max(size, 1.0e-6f);
+    return (1.0f + 1.0f / max(size, 1.0e-6f) + 1.0f / max(length(vec2(cos_o, along)), 1.0e-6f)) / max(dot(q, ng), 1.0e-2f);
+}
+
+FN float probe_terminator_scale(vec3 n, vec3 ng, vec3 wi, float width) {
+    float sine = length(cross(n, ng));
+    float cos_i = max(dot(wi, n), 1.0e-6f);
+    float range = TERMINATOR_RANGE * width * sine * cos_i;
+    return dot(wi, ng) < 1.01f * range ? 2.0f * (1.0f / range + 1.0f / max(sine, 1.0e-6f) + 1.0f / cos_i) : 1.0f;
+}
+
+FN void probe_normal_map(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    vec3 n = bend_toward(p.mapped, p.axis, MAPPED_COS);
+    put_bits(o, normal_map_model(NORMAL_MAP_SHADING, p.shading, p.mapped));
+    put_path(o, dot(p.mapped, p.axis) >= MAPPED_COS);
+    put_path(o, dot(p.mapped - dot(p.mapped, p.axis) * p.axis, p.mapped) > 1.0e-12f);
+    put3(o, reflect_off(p.axis, p.light), 4.0f);
+    float cos_o = dot(p.view, p.axis);
+    put_path(o, cos_o > 0.0f);
+    float least = min(REFLECTION_COS_SHARE * cos_o, REFLECTION_COS);
+    put_path(o, 2.0f * dot(p.view, n) * dot(n, p.axis) - cos_o >= least);
+    float bent = probe_bend_scale(p.mapped, p.axis);
+    float scale = bent * probe_specular_normal_scale(n, p.axis, p.view);
+    float fade = bent * probe_terminator_scale(n, p.axis, p.light, p.alpha);
+    if (put_comparable(o, scale + fade)) {
+        put3(o, specular_normal(n, p.axis, p.view), scale);
+        put(o, terminator_factor(n, p.axis, p.light, p.alpha), fade);
+    }
 }
 
 FN SurfaceBsdf probe_surface(IN(ProbeInput) p) {
@@ -68,14 +104,14 @@ FN SurfaceBsdf probe_surface(IN(ProbeInput) p) {
     s.geometric_normal = p.axis;
     s.shading_normal = p.shading;
     s.mapped_normal = p.mapped;
-    s.mapped = (p.words.x >> 2) & 1u;
+    s.mapped = (p.words.x >> 2) % 3u;
     return s;
 }
 
 /// Which branches of the surface's set-up were taken.
 FN void put_seen_path(INOUT(ProbeOutput) o, IN(SeenBsdf) seen) {
     put_path(o, seen.reflects);
-    put_path(o, seen.mapped);
+    put_bits(o, seen.mapped);
     put_path(o, seen.normal.z >= -0.0625f);
     put_path(o, seen.wo_local.z > COS_MIN);
 }
@@ -100,7 +136,7 @@ FN float probe_surface_scale(IN(SurfaceBsdf) s, IN(SeenBsdf) seen, vec3 wi, uint
 
 FN void probe_surface_eval(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     SurfaceBsdf s = probe_surface(p);
-    s.mapped = 0u;
+    s.mapped = NORMAL_MAP_NONE;
     uint features = probe_features(p);
     SeenBsdf seen = see_bsdf(s, p.view, features);
     put_seen_path(o, seen);
@@ -124,7 +160,7 @@ FN void probe_surface_eval(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
 
 FN void probe_surface_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     SurfaceBsdf s = probe_surface(p);
-    s.mapped = 0u;
+    s.mapped = NORMAL_MAP_NONE;
     uint features = probe_features(p);
     vec2 u = vec2(p.u.x, p.u.y);
     SeenBsdf seen = see_bsdf(s, p.view, features);
@@ -153,8 +189,92 @@ FN void probe_surface_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put(o, r.pdf, r.pdf * scale);
 }
 
+/// Which lobes of a mapped surface see a direction; where one does not, to within rounding, its part is on or off.
+FN void put_lobes_path(INOUT(ProbeOutput) o, IN(SeenBsdf) seen, vec3 ng, vec3 w) {
+    put_path(o, dot(w, ng) > COS_MIN);
+    put_path(o, dot(w, seen.diffuse_normal) > 0.0f);
+    put_path(o, dot(w, seen.normal) > COS_MIN);
+    put_path(o, dot(reflect_off(ng, w), seen.normal) > COS_MIN);
+}
+
+/// Of a mapped surface's eval and pdf, relative to `size`, which gets what its lobes carry without their fading.
+FN float probe_mapped_scale(IN(SurfaceBsdf) s, IN(SeenBsdf) seen, vec3 wi, uint features, OUT(float) size) {
+    vec3 ng = s.geometric_normal;
+    vec3 wi_local = to_local(seen.frame, wi);
+    vec3 below = to_local(seen.frame, reflect_off(ng, wi));
+    BsdfValue straight = bsdf_eval_pdf_local(s.parameters, seen.wo_local, seen.p_specular, wi_local, features);
+    BsdfValue lifted = bsdf_eval_pdf_local(s.parameters, seen.wo_local, seen.p_specular, below, features);
+    size = 1.0f + max_component(straight.value) + max_component(lifted.value) + straight.pdf + lifted.pdf;
+    float turned = probe_bend_scale(s.mapped_normal, ng) * probe_specular_normal_scale(seen.diffuse_normal, ng, seen.wo);
+    float lobes = probe_moved_scale(s.parameters, seen.wo_local, wi_local, features) +
+                  probe_moved_scale(s.parameters, seen.wo_local, below, features);
+    float alpha = clamp(s.parameters.alpha, ALPHA_MIRROR, 1.0f);
+    return turned * (lobes + 1.0f / max(length(seen.wo + wi), 1.0e-6f)) +
+           turned * (probe_terminator_scale(seen.diffuse_normal, ng, wi, 1.0f) + probe_terminator_scale(seen.normal, ng, wi, alpha));
+}
+
+FN void put_mapped_seen(INOUT(ProbeOutput) o, IN(ProbeInput) p, IN(SeenBsdf) seen) {
+    put_seen_path(o, seen);
+    put_path(o, dot(p.mapped, p.axis) >= MAPPED_COS);
+    float cos_o = dot(p.view, p.axis);
+    float least = min(REFLECTION_COS_SHARE * cos_o, REFLECTION_COS);
+    put_path(o, 2.0f * dot(p.view, seen.diffuse_normal) * dot(seen.diffuse_normal, p.axis) - cos_o >= least);
+    put_path(o, seen.diffuse_normal.z >= -0.0625f);
+}
+
+FN void probe_mapped_eval(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    SurfaceBsdf s = probe_surface(p);
+    s.mapped = NORMAL_MAP_SHADING;
+    uint features = probe_features(p) | FEATURE_NORMAL_MAPS;
+    SeenBsdf seen = see_bsdf(s, p.view, features);
+    put_mapped_seen(o, p, seen);
+    put_lobes_path(o, seen, p.axis, p.light);
+    float size;
+    float scale = probe_mapped_scale(s, seen, p.light, features, size);
+    if (put_comparable(o, scale)) {
+        BsdfValue v = mapped_eval_pdf(s.parameters, seen, p.axis, p.light, features);
+        put3(o, v.value, size * scale);
+        put(o, v.pdf, size * scale);
+    }
+}
+
+FN void probe_mapped_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    SurfaceBsdf s = probe_surface(p);
+    s.mapped = NORMAL_MAP_SHADING;
+    uint features = probe_features(p) | FEATURE_NORMAL_MAPS;
+    vec2 u = vec2(p.u.x, p.u.y);
+    SeenBsdf seen = see_bsdf(s, p.view, features);
+    put_mapped_seen(o, p, seen);
+    bool specular = bsdf_may_be_specular(features) && p.u.z < seen.p_specular;
+    put_path(o, specular);
+    BsdfSample r = mapped_sample(s.parameters, seen, p.axis, p.u.z, u, features);
+    put_path(o, r.pdf > 0.0f);
+    if (!(r.pdf > 0.0f)) {
+        return;
+    }
+    put_bits(o, r.delta);
+    put_lobes_path(o, seen, p.axis, r.direction);
+    float alpha = clamp(s.parameters.alpha, ALPHA_MIRROR, 1.0f);
+    float turned = probe_bend_scale(p.mapped, p.axis) * probe_specular_normal_scale(seen.diffuse_normal, p.axis, p.view);
+    float moved = 1.0f;
+    if (specular && r.delta == 0u && !bsdf_is_blinn_phong(s.parameters, features)) {
+        vec3 h = sample_ggx_visible_normal(seen.wo_local, alpha, u);
+        moved *= probe_facet_scale(seen.wo_local, h, alpha, u) + 1.0f / max(seen.wo_local.z, 1.0e-7f);
+        vec3 reflected = 2.0f * dot(seen.wo_local, h) * h - seen.wo_local;
+        put_path(o, dot(to_world(seen.frame, reflected), p.axis) < 0.0f);
+    }
+    put3(o, r.direction, 2.0f * turned * moved);
+    float size;
+    float scale = moved * probe_mapped_scale(s, seen, r.direction, features, size);
+    if (!put_comparable(o, scale)) {
+        return;
+    }
+    put(o, r.pdf, (r.delta != 0u ? 1.0f : size) * scale);
+    put3(o, r.weight, (1.0f + max_component(r.weight)) * scale * (r.delta != 0u ? 1.0f : size / r.pdf));
+}
+
 /// What the paths over both facets carry at most, and how sharply.
-FN BsdfValue probe_mapped_size(IN(BsdfParameters) b, IN(MappedNormal) m, vec3 wo, vec3 wi, uint features,
+FN BsdfValue probe_mapped_size(IN(BsdfParameters) b, IN(FacetPair) m, vec3 wo, vec3 wi, uint features,
                                OUT(float) sharpness) {
     Frame frame = frame_from_normal(m.facet);
     BsdfValue sum;
@@ -162,8 +282,8 @@ FN BsdfValue probe_mapped_size(IN(BsdfParameters) b, IN(MappedNormal) m, vec3 wo
     sum.pdf = 1.0f;
     sharpness = 0.0f;
     for (uint path = 0u; path < 6u; ++path) {
-        vec3 o = path < 3u ? wo : mapped_reflect(m, wo);
-        vec3 i = path % 3u == 0u ? wi : (path % 3u == 1u ? mapped_reflect(m, wi) : mapped_lift(m, wi));
+        vec3 o = path < 3u ? wo : tangent_reflect(m, wo);
+        vec3 i = path % 3u == 0u ? wi : (path % 3u == 1u ? tangent_reflect(m, wi) : surface_reflect(m, wi));
         BsdfValue v = bsdf_eval_pdf_in_frame(b, frame, o, i, features);
         sum.value += v.value;
         sum.pdf += v.pdf;
@@ -173,18 +293,18 @@ FN BsdfValue probe_mapped_size(IN(BsdfParameters) b, IN(MappedNormal) m, vec3 wo
 }
 
 /// Which of the facets see both directions; where one does not, to within rounding, a path is on or off.
-FN void put_mapped_path(INOUT(ProbeOutput) o, IN(MappedNormal) m, vec3 w) {
+FN void put_mapped_path(INOUT(ProbeOutput) o, IN(FacetPair) m, vec3 w) {
     put_path(o, dot(w, m.facet) > COS_MIN);
     put_path(o, dot(w, m.tangent) > 0.0f);
-    put_path(o, dot(mapped_reflect(m, w), m.facet) > COS_MIN);
-    put_path(o, dot(mapped_lift(m, w), m.facet) > COS_MIN);
+    put_path(o, dot(tangent_reflect(m, w), m.facet) > COS_MIN);
+    put_path(o, dot(surface_reflect(m, w), m.facet) > COS_MIN);
     put_path(o, dot(w, m.normal) > COS_MIN);
 }
 
-FN void probe_mapped_eval(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+FN void probe_facet_pair_eval(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     BsdfParameters b = probe_parameters(p);
     uint features = probe_features(p);
-    MappedNormal m = make_mapped_normal(p.shading, p.shading, p.mapped);
+    FacetPair m = make_facet_pair(p.shading, p.shading, p.mapped);
     put_path(o, m.tilted != 0u);
     put_path(o, m.facet.z >= -0.0625f);
     if (m.tilted == 0u) {
@@ -192,11 +312,11 @@ FN void probe_mapped_eval(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     }
     put_mapped_path(o, m, p.view);
     put_mapped_path(o, m, p.light);
-    BsdfValue v = mapped_eval_pdf(b, m, p.view, p.light, features);
+    BsdfValue v = facet_pair_eval_pdf(b, m, p.view, p.light, features);
     float sharpness;
     BsdfValue size = probe_mapped_size(b, m, p.view, p.light, features, sharpness);
     float masks =
-        probe_mask_scale(m, p.view) + probe_mask_scale(m, p.light) + probe_mask_scale(m, mapped_reflect(m, p.light));
+        probe_mask_scale(m, p.view) + probe_mask_scale(m, p.light) + probe_mask_scale(m, tangent_reflect(m, p.light));
     float scale = probe_tangent_scale(p, m) * (sharpness + masks);
     if (!put_comparable(o, scale)) {
         return;
@@ -205,11 +325,11 @@ FN void probe_mapped_eval(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put(o, v.pdf, size.pdf * scale);
 }
 
-FN void probe_mapped_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+FN void probe_facet_pair_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     BsdfParameters b = probe_parameters(p);
     uint features = probe_features(p);
     vec2 u = vec2(p.u.x, p.u.y);
-    MappedNormal m = make_mapped_normal(p.shading, p.shading, p.mapped);
+    FacetPair m = make_facet_pair(p.shading, p.shading, p.mapped);
     put_path(o, m.tilted != 0u);
     put_path(o, m.facet.z >= -0.0625f);
     if (m.tilted == 0u) {
@@ -221,7 +341,7 @@ FN void probe_mapped_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_path(o, on_facet);
     vec3 start = p.view;
     if (!on_facet) {
-        start = mapped_reflect(m, p.view);
+        start = tangent_reflect(m, p.view);
     }
     Frame frame = frame_from_normal(m.facet);
     vec3 start_local = to_local(frame, start);
@@ -230,8 +350,8 @@ FN void probe_mapped_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     BsdfSample first = bsdf_sample_in_frame(b, frame, start, p.u.z, u, features);
     float path = on_facet ? p_facet : 1.0f - p_facet;
     put_path(o, dot(first.direction, m.normal) > 0.0f);
-    put_path(o, (on_facet ? p.u.w : p.u.w - p_facet) < path * mapped_masking(m, first.direction));
-    BsdfSample r = mapped_sample(b, m, p.view, vec2(p.u.z, p.u.w), u, features);
+    put_path(o, (on_facet ? p.u.w : p.u.w - p_facet) < path * facet_masking(m, first.direction));
+    BsdfSample r = facet_pair_sample(b, m, p.view, vec2(p.u.z, p.u.w), u, features);
     put_path(o, r.pdf > 0.0f);
     if (!(r.pdf > 0.0f)) {
         return;
@@ -247,7 +367,7 @@ FN void probe_mapped_sample(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     float sharpness;
     BsdfValue size = probe_mapped_size(b, m, p.view, r.direction, features, sharpness);
     float masks = probe_mask_scale(m, p.view) + probe_mask_scale(m, r.direction) +
-                  probe_mask_scale(m, mapped_reflect(m, r.direction));
+                  probe_mask_scale(m, tangent_reflect(m, r.direction));
     float scale = r.delta != 0u ? moved * (1.0f + masks) : moved * (sharpness + masks);
     if (!put_comparable(o, scale)) {
         return;
@@ -261,11 +381,14 @@ SHARED_END
 // See probe_list.h.
 #define SURFACE_PROBES(X)                                                                                              \
     X(bent_normal, 24, 200, "inversesqrt, normalize")                                                                  \
-    X(mapped_normal, 48, 200, "a division, two normalizes")                                                            \
+    X(facet_pair, 48, 200, "a division, two normalizes")                                                            \
     X(see, 48, 200, "the bent normal's, then a frame")                                                                 \
     X(surface_eval, 96, 300, "the frame's, then eval's")                                                               \
     X(surface_sample, 96, 400, "the frame's, then sample's")                                                           \
-    X(mapped_eval, 192, 3000, "a map that tilts by 1e-5 knows its tangent to 1 %; both facets', then eval's thrice")   \
-    X(mapped_sample, 192, 3000, "the same; both facets', then sample's")
+    X(normal_map, 48, 200, "a bent normal; an inversesqrt, a sqrt, two divisions and a normalize")                     \
+    X(mapped_eval, 96, 1000, "the specular normal's, then eval's twice")                                               \
+    X(mapped_sample, 96, 1000, "the same, then sample's")                                                              \
+    X(facet_pair_eval, 192, 3000, "a map that tilts by 1e-5 knows its tangent to 1 %; both facets', then eval's thrice")   \
+    X(facet_pair_sample, 192, 3000, "the same; both facets', then sample's")
 
 #endif

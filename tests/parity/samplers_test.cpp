@@ -163,8 +163,8 @@ shared::BsdfParameters material(float metallic, float roughness, uint model) {
     return shared::bsdf_parameters(vec3(0.8F, 0.5F, 0.2F), metallic, roughness, 0.04F, 1.0F, vec3(1, 1, 1), model);
 }
 
-void check_surfaces(Bench& bench) {
-    uint seed = 200;
+void check_surfaces(Bench& bench, uint normal_maps) {
+    uint seed = 200 + 50 * normal_maps;
     for (const uint model : {shared::BRDF_GGX, shared::BRDF_BLINN_PHONG}) {
         for (const float roughness : {0.0F, 0.5F, 1.0F}) {
             for (const double cosine : {0.9, 0.1}) {
@@ -173,13 +173,13 @@ void check_surfaces(Bench& bench) {
                     DrawSetup s = make_setup(mapped ? shared::DRAW_SURFACE : shared::DRAW_BSDF, seed++);
                     s.wo = direction_at(cosine, 0.45);
                     s.surface.parameters = material(0.0F, roughness, model);
-                    s.surface.mapped = mapped ? 1U : 0U;
+                    s.surface.mapped = mapped ? normal_maps : shared::NORMAL_MAP_NONE;
                     s.surface.mapped_normal = mapped ? direction_at(std::cos(tilt), 2.3) : up;
                     const auto pdf = [&](vec3 wi) {
                         return mapped ? shared::surface_bsdf_pdf(s.surface, s.wo, wi, all_features)
                                       : shared::bsdf_pdf_local(s.surface.parameters, s.wo, wi, all_features);
                     };
-                    check_directions(bench, s, hemisphere_chart(), pdf, 36, 1e-3);
+                    check_directions(bench, s, hemisphere_chart(), pdf, 72, 1e-3);
                 }
             }
         }
@@ -267,7 +267,8 @@ void check_samplers(std::int64_t draws) {
     bench.draws = draws;
     check_warps(bench);
     check_facets(bench);
-    check_surfaces(bench);
+    check_surfaces(bench, shared::NORMAL_MAP_SHADING);
+    check_surfaces(bench, shared::NORMAL_MAP_MICROFACET);
     check_triangles(bench);
     check_alias_table(bench);
 }

@@ -25,13 +25,14 @@ BsdfParameters plastic(float roughness) {
 }
 
 /// On the plane z = 0, its mapped normal tilted toward the azimuth.
-SurfaceBsdf mapped_surface(const BsdfParameters& p, double tilt_degrees, double azimuth) {
+SurfaceBsdf mapped_surface(const BsdfParameters& p, double tilt_degrees, double azimuth,
+                           uint model = NORMAL_MAP_SHADING) {
     SurfaceBsdf s;
     s.parameters = p;
     s.geometric_normal = up;
     s.shading_normal = up;
     s.mapped_normal = direction_at(std::cos(tilt_degrees * M_PI / 180.0), azimuth);
-    s.mapped = 1u;
+    s.mapped = normal_map_model(model, s.shading_normal, s.mapped_normal);
     return s;
 }
 
@@ -98,7 +99,7 @@ TEST_CASE("A normal map that does not tilt changes no bit, and neither does its 
         plain.mapped_normal = plain.shading_normal;
         plain.mapped = 0u;
         SurfaceBsdf mapped = plain;
-        mapped.mapped = 1u;
+        mapped.mapped = normal_map_model(NORMAL_MAP_SHADING, plain.shading_normal, plain.mapped_normal);
         const vec3 wo = direction_at(1.0 - u.next(), 6.0 * u.next());
         const vec3 wi = direction_at(1.0 - u.next(), 6.0 * u.next());
         const vec2 u_lobe = u.next_pair();
@@ -128,21 +129,25 @@ void check_mapped_draws(int64_t draws) {
         double view;
         double view_azimuth;
         double smooth_tilt;
+        uint model;
     };
     std::vector<Case> cases;
-    for (const BsdfParameters& p : {white_diffuse(), white_metal(0.6f), plastic(0.5f), plastic(0.0f)}) {
-        cases.push_back({p, 20.0, 30.0, 0.9, 0.0});
-        cases.push_back({p, 60.0, 50.0, 3.6, 0.0});
-        cases.push_back({p, 40.0, 80.0, 2.3, 0.0});
-        cases.push_back({p, 80.0, 70.0, 0.5, 0.0});
-        cases.push_back({p, 40.0, 60.0, 2.3, 20.0});
-        cases.push_back({p, 0.0, 80.0, 2.3, 30.0});
+    for (const uint model : {NORMAL_MAP_SHADING, NORMAL_MAP_MICROFACET}) {
+        for (const BsdfParameters& p : {white_diffuse(), white_metal(0.6f), plastic(0.5f), plastic(0.0f)}) {
+            cases.push_back({p, 20.0, 30.0, 0.9, 0.0, model});
+            cases.push_back({p, 60.0, 50.0, 3.6, 0.0, model});
+            cases.push_back({p, 40.0, 80.0, 2.3, 0.0, model});
+            cases.push_back({p, 80.0, 70.0, 0.5, 0.0, model});
+            cases.push_back({p, 40.0, 60.0, 2.3, 20.0, model});
+            cases.push_back({p, 0.0, 80.0, 2.3, 30.0, model});
+        }
     }
     uint32_t seed = 500;
     int64_t all_deltas = 0;
     for (const Case& c : cases) {
         SurfaceBsdf s = mapped_surface(c.p, c.tilt, 0.45);
         s.shading_normal = at_degrees(c.smooth_tilt, 5.0);
+        s.mapped = c.model;
         const vec3 wo = at_degrees(c.view, c.view_azimuth);
         Uniforms u(seed++);
         int64_t inconsistent = 0;
@@ -166,7 +171,7 @@ void check_mapped_draws(int64_t draws) {
         };
         const auto pdf = [&](vec3 wi) { return surface_bsdf_pdf(s, wo, wi, all_features); };
         const ChiSquareResult r = chi_square(hemisphere_chart(), draws, draw, pdf);
-        INFO("alpha " << c.p.alpha << " f0 " << c.p.f0.x << " tilt " << c.tilt << " view " << c.view << " smooth "
+        INFO("model " << c.model << " alpha " << c.p.alpha << " f0 " << c.p.f0.x << " tilt " << c.tilt << " view " << c.view << " smooth "
                       << c.smooth_tilt << " null " << r.null_fraction << " integral " << r.pdf_integral);
         CHECK(r.impossible == 0);
         CHECK(inconsistent == 0);
@@ -190,7 +195,7 @@ TEST_CASE("A million directions off a mapped surface have the density that it st
     check_mapped_draws(1000000);
 }
 
-TEST_CASE("A tilted map neither makes light nor loses any") {
+TEST_CASE("A tilted microfacet map neither makes light nor loses any") {
     // What the facet alone reflects, of single bounces off GGX, is all there is to keep.
     struct Material {
         const char* name;
@@ -208,7 +213,7 @@ TEST_CASE("A tilted map neither makes light nor loses any") {
             double least = 2.0;
             for (const double view : {0.0, 20.0, 40.0, 60.0, 75.0, 85.0}) {
                 for (const double azimuth : {0.0, M_PI / 2.0, M_PI}) {
-                    const SurfaceBsdf s = mapped_surface(m.p, tilt, 0.45);
+                    const SurfaceBsdf s = mapped_surface(m.p, tilt, 0.45, NORMAL_MAP_MICROFACET);
                     float largest = 0.0f;
                     const double albedo = sampled_albedo(s, at_degrees(view, 0.45 + azimuth), 4000, 600, largest);
                     largest_weight = std::max(largest_weight, largest);
@@ -229,15 +234,16 @@ TEST_CASE("A tilted map neither makes light nor loses any") {
 }
 
 TEST_CASE("A mapped mirror is the limit of a smooth mapped metal") {
+    const uint model = GENERATE(NORMAL_MAP_SHADING, NORMAL_MAP_MICROFACET);
     for (const double tilt : {20.0, 40.0, 70.0}) {
         for (const double view : {10.0, 40.0, 65.0}) {
             for (const double azimuth : {0.3, 1.8, 3.0}) {
                 const vec3 wo = at_degrees(view, 0.45 + azimuth);
                 float largest = 0.0f;
                 const double mirror =
-                    sampled_albedo(mapped_surface(white_metal(0.0f), tilt, 0.45), wo, 20000, 800, largest);
+                    sampled_albedo(mapped_surface(white_metal(0.0f), tilt, 0.45, model), wo, 20000, 800, largest);
                 const double smooth =
-                    sampled_albedo(mapped_surface(white_metal(0.0101f), tilt, 0.45), wo, 20000, 801, largest);
+                    sampled_albedo(mapped_surface(white_metal(0.0101f), tilt, 0.45, model), wo, 20000, 801, largest);
                 INFO("tilt " << tilt << " view " << view << " azimuth " << azimuth << ": " << mirror << ", " << smooth);
                 CHECK(std::abs(mirror - smooth) < 0.02);
             }
@@ -251,7 +257,7 @@ TEST_CASE("No light leaks through the triangle") {
     for (int k = 0; k < 100000; ++k) {
         SurfaceBsdf s = mapped_surface(plastic(u.next()), 80.0 * u.next(), 6.0 * u.next());
         s.shading_normal = direction_at(0.05 + 0.95 * u.next(), 6.0 * u.next());
-        s.mapped = k % 2 == 0 ? 1u : 0u;
+        s.mapped = static_cast<uint>(k % 3);
         const vec3 wo = direction_at(1.0 - u.next(), 6.0 * u.next());
         const vec3 below = -direction_at(u.next(), 6.0 * u.next());
         const vec2 u_lobe = u.next_pair();
@@ -269,7 +275,7 @@ TEST_CASE("A silhouette that sees the triangle but is below the smooth normal's 
     SurfaceBsdf s = mapped_surface(white_diffuse(), 0.0, 0.0);
     s.shading_normal = at_degrees(30.0, 0.0);
     s.mapped_normal = s.shading_normal;
-    for (const uint mapped : {0u, 1u}) {
+    for (const uint mapped : {NORMAL_MAP_NONE, NORMAL_MAP_SHADING, NORMAL_MAP_MICROFACET}) {
         s.mapped = mapped;
         for (const double view : {61.0, 75.0, 89.0}) {
             float largest = 0.0f;
@@ -291,7 +297,7 @@ TEST_CASE("Degenerate normals and directions give finite values") {
                         s.geometric_normal = up;
                         s.shading_normal = direction_at(smooth_cosine, k % 4);
                         s.mapped_normal = direction_at(mapped_cosine, k % 3);
-                        s.mapped = 1u;
+                        s.mapped = k % 2 == 0 ? NORMAL_MAP_SHADING : NORMAL_MAP_MICROFACET;
                         const vec3 wo = direction_at(view_cosine, k % 5);
                         const vec2 u_lobe = u.next_pair();
                         const BsdfSample r = surface_bsdf_sample(s, wo, u_lobe, u.next_pair(), all_features);
