@@ -19,7 +19,7 @@ FN vec3 specular_normal(vec3 n, vec3 ng, vec3 wo) {
     float cos_o = dot(wo, ng);
     float cos_n = dot(n, ng);
     float least = min(REFLECTION_COS_SHARE * cos_o, REFLECTION_COS);
-    if (2.0f * dot(wo, n) * cos_n - cos_o >= least) {
+    if (MUTANT(REFLECTION_NOT_KEPT, 2.0f * dot(wo, n) * cos_n - cos_o >= least, true)) {
         return n;
     }
     vec3 across = n - cos_n * ng;

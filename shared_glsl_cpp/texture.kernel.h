@@ -99,7 +99,8 @@ FN vec3 interpolate(IN(MeshPoint) p, vec3 a, vec3 b, vec3 c) {
 }
 
 FN vec4 interpolate(IN(MeshPoint) p, vec4 a, vec4 b, vec4 c) {
-    return a + p.barycentrics.x * (b - a) + p.barycentrics.y * (c - a);
+    vec2 uv = p.barycentrics;
+    return MUTANT(CONSTANTS_DRIFT, a + uv.x * (b - a) + uv.y * (c - a), (1.0f - uv.x - uv.y) * a + uv.x * b + uv.y * c);
 }
 
 FN vec2 mesh_uv(IN(MeshPoint) p, uint first_uv) {

@@ -29,15 +29,15 @@ double known_share(double cosine) {
 }
 
 /// Interpolated normals tilted so far: nothing may leave through the triangle, and sample, eval and pdf must agree.
-Measured measure_interpolated(Backend& backend, double degrees, Effort effort, bool mapped) {
+Measured measure_interpolated(Backend& backend, double degrees, Effort effort, std::uint32_t map) {
     Uniforms u(12);
     std::vector<MeasuredInput> inputs(effort == Effort::quick ? 1024 : 16384);
     const double tilt = degrees / 180 * pi;
     for (MeasuredInput& p : inputs) {
         const dvec3 normal = direction(std::cos(tilt), 2 * pi * u.next());
         const dvec3 o = direction(std::pow(10.0, -6 * u.next()), 2 * pi * u.next());
-        p = mapped_input(o, mapped ? dvec3(0, 0, 1) : normal, normal, 0.3 + 0.7 * u.next(), u.next() < 0.5 ? -1 : 1);
-        p.n[0] = mapped ? 1 : 0;
+        p = mapped_input(o, map != shared::NORMAL_MAP_NONE ? dvec3(0, 0, 1) : normal, normal, 0.3 + 0.7 * u.next(), u.next() < 0.5 ? -1 : 1);
+        p.n[0] = map;
         for (std::size_t k = 11; k < 15; ++k) {
             p.x[k] = static_cast<float>(u.next());
         }
@@ -50,7 +50,7 @@ Measured measure_interpolated(Backend& backend, double degrees, Effort effort, b
         const std::string where = fmt::format("view cos {:.3g}, roughness {:.3f}", inputs[i].x[2], inputs[i].x[9]);
         const double cosine = double{o.y[0]} * double{inputs[i].x[3]} + double{o.y[1]} * double{inputs[i].x[4]} +
                               double{o.y[2]} * double{inputs[i].x[5]};
-        const double share = mapped ? 1 : known_share(cosine);
+        const double share = map != shared::NORMAL_MAP_NONE ? 1 : known_share(cosine);
         worsen(m, std::isfinite(o.y[3]) && o.y[3] >= 0 && o.y[4] >= 0 ? 0.0 : NAN, where);
         if (o.y[4] > 0 && o.n[0] == 0) {
             worsen(m, o.y[2] > 0 ? 0.0 : 1.0, "below the triangle");
@@ -61,7 +61,58 @@ Measured measure_interpolated(Backend& backend, double degrees, Effort effort, b
     return m;
 }
 
-/// What a white sky makes of a tilted map: the facet's own albedo, whatever the tilt.
+/// One surface under a tilted map, drawn from so often.
+std::vector<MeasuredInput> mapped_draws(double view, double azimuth, const dvec3& facet, double roughness, double metallic,
+                                        std::uint32_t map, int side) {
+    Uniforms u(13);
+    std::vector<MeasuredInput> inputs;
+    for (int k = 0; k < side * side; ++k) {
+        MeasuredInput p =
+            mapped_input(direction(std::cos(view / 180 * pi), 0.45 + azimuth), {0, 0, 1}, facet, roughness, metallic);
+        p.x[11] = static_cast<float>(u.next());
+        p.x[12] = static_cast<float>(u.next());
+        p.x[13] = static_cast<float>((k % side + 0.5) / side);
+        p.x[14] = static_cast<float>((k / side + 0.5) / side);
+        p.n[0] = map;
+        inputs.push_back(p);
+    }
+    return inputs;
+}
+
+double mean_weight(const std::vector<MeasuredOutput>& outputs) {
+    double sum = 0;
+    for (const MeasuredOutput& o : outputs) {
+        sum += double{o.y[3]};
+    }
+    return sum / static_cast<double>(outputs.size());
+}
+
+/// What a white sky makes of a surface shaded by a tilted map's normal: never more than white, and at grazing views no less than half
+/// of what it makes of the flat surface.
+Measured measure_map_bounds(Backend& backend, double degrees, Effort effort, double roughness, double metallic) {
+    const int side = effort == Effort::quick ? 32 : 128;
+    const dvec3 mapped = direction(std::cos(degrees / 180 * pi), 0.45);
+    Measured m;
+    const auto albedo = [&](double view, double azimuth, const dvec3& normal, std::uint32_t map) {
+        const std::vector<MeasuredInput> inputs = mapped_draws(view, azimuth, normal, roughness, metallic, map, side);
+        m.evaluations += inputs.size();
+        return mean_weight(backend.run(Function::mapped_surface, inputs));
+    };
+    for (const double view : {0.0, 30.0, 60.0, 80.0, 85.0, 89.0}) {
+        const double flat = albedo(view, 0, {0, 0, 1}, shared::NORMAL_MAP_NONE);
+        for (const double azimuth : {0.0, pi / 4, pi / 2, 3 * pi / 4, pi}) {
+            const double seen = albedo(view, azimuth, mapped, shared::NORMAL_MAP_SHADING);
+            const std::string where = fmt::format("view {:g}, azimuth {:.2f}: {:.4f} of {:.4f}", view, azimuth, seen, flat);
+            worsen(m, std::max(seen - 1, 0.0), where);
+            if (view >= 80 && degrees <= 60) {
+                worsen(m, std::max(0.5 * flat - seen, 0.0), where);
+            }
+        }
+    }
+    return m;
+}
+
+/// What a white sky makes of a tilted microfacet map: the facet's own albedo, whatever the tilt.
 Measured measure_map_energy(Backend& backend, double degrees, Effort effort, double roughness, double metallic) {
     const int side = effort == Effort::quick ? 32 : 128;
     const double tilt = degrees / 180 * pi;
@@ -69,24 +120,10 @@ Measured measure_map_energy(Backend& backend, double degrees, Effort effort, dou
     Measured m;
     for (const double view : {0.0, 30.0, 60.0, 80.0, 89.0}) {
         for (const double azimuth : {0.0, pi / 2, pi}) {
-            std::vector<MeasuredInput> inputs;
-            Uniforms u(13);
-            for (int k = 0; k < side * side; ++k) {
-                MeasuredInput p = mapped_input(direction(std::cos(view / 180 * pi), 0.45 + azimuth), {0, 0, 1}, facet,
-                                               roughness, metallic);
-                p.x[11] = static_cast<float>(u.next());
-                p.x[12] = static_cast<float>(u.next());
-                p.x[13] = static_cast<float>((k % side + 0.5) / side);
-                p.x[14] = static_cast<float>((k / side + 0.5) / side);
-                p.n[0] = 1;
-                inputs.push_back(p);
-            }
-            double sum = 0;
-            for (const MeasuredOutput& o : backend.run(Function::mapped_surface, inputs)) {
-                sum += double{o.y[3]};
-            }
+            const std::vector<MeasuredInput> inputs =
+                mapped_draws(view, azimuth, facet, roughness, metallic, shared::NORMAL_MAP_MICROFACET, side);
+            const double albedo = mean_weight(backend.run(Function::mapped_surface, inputs));
             m.evaluations += inputs.size();
-            const double albedo = sum / static_cast<double>(inputs.size());
             const dvec3 o = given_vec3(inputs[0], 0);
             // The tangent facet shows the mapped one from its mirror image.
             const dvec3 across = facet - facet.z * dvec3(0, 0, 1);
@@ -113,21 +150,39 @@ void add_surface_cases(std::vector<Case>& cases) {
     const Range tilts{"degrees", 0, 89, false, 4, 90};
     cases.push_back({"shading normals", "sample, eval and pdf agree under interpolated normals", tilts, 1e-4,
                      "relative, less below cos 1e-3",
-                     [](Backend& b, double tilt, Effort e) { return measure_interpolated(b, tilt, e, false); }});
+                     [](Backend& b, double tilt, Effort e) { return measure_interpolated(b, tilt, e, shared::NORMAL_MAP_NONE); }});
     cases.push_back({"shading normals",
-                     "energy of a white diffuse surface under a tilted map",
+                     "energy of a white diffuse surface under a microfacet map",
                      {"degrees", 0, 85, false, 3, 18},
                      1e-4,
                      "absolute",
                      [](Backend& b, double tilt, Effort e) { return measure_map_energy(b, tilt, e, 1, -1); }});
     cases.push_back({"shading normals",
-                     "energy of a rough metal under a tilted map",
+                     "energy of a rough metal under a microfacet map",
                      {"degrees", 0, 85, false, 2, 18},
                      0.02,
                      "absolute",
                      [](Backend& b, double tilt, Effort e) { return measure_map_energy(b, tilt, e, 0.5, 1); }});
     cases.push_back({"shading normals", "sample, eval and pdf agree under normal maps", tilts, 1e-3, "relative",
-                     [](Backend& b, double tilt, Effort e) { return measure_interpolated(b, tilt, e, true); }});
+                     [](Backend& b, double tilt, Effort e) {
+                         return measure_interpolated(b, tilt, e, shared::NORMAL_MAP_SHADING);
+                     }});
+    cases.push_back({"shading normals", "sample, eval and pdf agree under microfacet maps", tilts, 1e-3, "relative",
+                     [](Backend& b, double tilt, Effort e) {
+                         return measure_interpolated(b, tilt, e, shared::NORMAL_MAP_MICROFACET);
+                     }});
+    cases.push_back({"shading normals",
+                     "a mapped diffuse surface gains nothing and does not go black",
+                     {"degrees", 0, 85, false, 3, 18},
+                     1e-3,
+                     "albedo out of bounds",
+                     [](Backend& b, double tilt, Effort e) { return measure_map_bounds(b, tilt, e, 1, -1); }});
+    cases.push_back({"shading normals",
+                     "a mapped metal gains nothing and does not go black",
+                     {"degrees", 0, 85, false, 3, 18},
+                     1e-3,
+                     "albedo out of bounds",
+                     [](Backend& b, double tilt, Effort e) { return measure_map_bounds(b, tilt, e, 0.5, 1); }});
 }
 
 }  // namespace diptych::stability
