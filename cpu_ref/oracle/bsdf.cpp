@@ -10,16 +10,6 @@ double square(double x) {
     return x * x;
 }
 
-/// The chance with which `sample` takes the specular part. Any number in (0, 1) is right where both parts exist.
-double specular_share(const Bsdf& bsdf, const dvec3& n, const dvec3& o) {
-    const bool diffuse = bsdf.diffuse != dvec3(0);
-    if (!diffuse || !bsdf.has_specular()) {
-        return diffuse ? 0 : 1;
-    }
-    const double specular = largest(fresnel(bsdf, dot(o, n)));
-    return glm::clamp(specular / (specular + largest(bsdf.diffuse)), 0.1, 0.9);
-}
-
 }  // namespace
 
 double ndf(Distribution model, double alpha, double cosine, double sine_squared) {
@@ -72,6 +62,16 @@ dvec3 evaluate(const Bsdf& bsdf, const dvec3& n, const dvec3& o, const dvec3& i)
         value += f * (d * g / (4 * cos_o * cos_i));
     }
     return value * cos_i;
+}
+
+/// Any number in (0, 1) is right where both parts exist.
+double specular_share(const Bsdf& bsdf, const dvec3& n, const dvec3& o) {
+    const bool diffuse = bsdf.diffuse != dvec3(0);
+    if (!diffuse || !bsdf.has_specular()) {
+        return diffuse ? 0 : 1;
+    }
+    const double specular = largest(fresnel(bsdf, dot(o, n)));
+    return glm::clamp(specular / (specular + largest(bsdf.diffuse)), 0.1, 0.9);
 }
 
 Scattered sample_mirror(const Bsdf& bsdf, const dvec3& n, const dvec3& o) {
@@ -142,6 +142,12 @@ dvec3 around(const dvec3& n, double c, double angle) {
     const dvec3 b = cross(n, t);
     const double s = std::sqrt(glm::max(1 - c * c, 0.0));
     return normalize(t * (s * std::cos(angle)) + b * (s * std::sin(angle)) + n * c);
+}
+
+dvec3 with_cosine(const dvec3& n, const dvec3& axis, double c) {
+    const dvec3 across = n - dot(n, axis) * axis;
+    const double size = length(across);
+    return size > 0 ? c * axis + std::sqrt(1 - c * c) / size * across : axis;
 }
 
 }  // namespace diptych::oracle

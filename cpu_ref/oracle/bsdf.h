@@ -49,6 +49,9 @@ dvec3 evaluate(const Bsdf& bsdf, const dvec3& n, const dvec3& o, const dvec3& i)
 /// Picks the diffuse or the specular part and draws from it: cosine, D(h) cos(h), or the mirrored direction.
 Scattered sample(const Bsdf& bsdf, const dvec3& n, const dvec3& o, Random& random);
 
+/// The chance with which `sample` takes the specular part.
+double specular_share(const Bsdf& bsdf, const dvec3& n, const dvec3& o);
+
 /// Of `sample`'s draws at i a steradian, both parts together; a mirror's part, which has none, left out.
 double density(const Bsdf& bsdf, const dvec3& n, const dvec3& o, const dvec3& i);
 
@@ -57,6 +60,9 @@ Scattered sample_mirror(const Bsdf& bsdf, const dvec3& n, const dvec3& o);
 
 /// The unit vector with cosine `c` to the unit vector `n`, at `angle` about it.
 dvec3 around(const dvec3& n, double c, double angle);
+
+/// The unit vector of the plane of n and `axis` whose cosine to `axis` is c, on n's side; `axis` where n is along it.
+dvec3 with_cosine(const dvec3& n, const dvec3& axis, double c);
 
 /// w mirrored in the plane across n; -w mirrored is the direction light takes.
 inline dvec3 flip_across(const dvec3& w, const dvec3& n) {

@@ -8,17 +8,9 @@ namespace {
 
 constexpr double least_view_cosine = 1e-3;
 constexpr double least_facet_cosine = 0.01;
-constexpr double least_light_cosine = 1e-7;
 
 double above(double x) {
     return glm::max(x, 0.0);
-}
-
-/// The unit vector of the plane of n and `axis` whose cosine to `axis` is c, on n's side.
-dvec3 with_cosine(const dvec3& n, const dvec3& axis, double c) {
-    const dvec3 across = n - dot(n, axis) * axis;
-    const double size = length(across);
-    return size > 0 ? c * axis + std::sqrt(1 - c * c) / size * across : axis;
 }
 
 dvec3 bend(const dvec3& n, const dvec3& geometric, const dvec3& o) {
@@ -47,7 +39,8 @@ double masking(const Facets& f, const dvec3& w) {
 }
 
 bool leaves(const Facets& f, const dvec3& i) {
-    return dot(i, f.geometric) > 0 && (f.is_flat() || dot(i, f.g) > least_light_cosine);
+    return f.is_flat() ? dot(i, f.geometric) > 0
+                       : dot(i, f.geometric) > least_light_cosine && dot(i, f.g) > least_light_cosine;
 }
 
 Scattered draw(const Facets& f, const Bsdf& bsdf, const dvec3& o, bool only_mirror, Random& random) {
@@ -55,6 +48,10 @@ Scattered draw(const Facets& f, const Bsdf& bsdf, const dvec3& o, bool only_mirr
 }
 
 }  // namespace
+
+dvec3 held_above(const dvec3& p, const dvec3& axis) {
+    return dot(p, axis) < least_facet_cosine ? with_cosine(p, axis, least_facet_cosine) : p;
+}
 
 Facets make_facets(const dvec3& geometric, const dvec3& n, const dvec3& mapped, const dvec3& o) {
     Facets f;
@@ -64,10 +61,7 @@ Facets make_facets(const dvec3& geometric, const dvec3& n, const dvec3& mapped, 
     if (mapped == n) {
         return f;
     }
-    f.p = turn(mapped, n, f.g);
-    if (dot(f.p, f.g) < least_facet_cosine) {
-        f.p = with_cosine(f.p, f.g, least_facet_cosine);
-    }
+    f.p = held_above(turn(mapped, n, f.g), f.g);
     const dvec3 across = f.p - dot(f.p, f.g) * f.g;
     f.sine = length(across);
     f.cosine = dot(f.p, f.g);

@@ -1,5 +1,5 @@
-// Normals under a viewer, and microfacet-based normal mapping (Schüssler, Heitz, Hanika and Dachsbacher 2017) with a
-// specular tangent facet, as docs/integrand.md words both.
+// The bent normal of a surface without a map, and the model `microfacet` of normal maps: microfacet-based normal mapping
+// (Schüssler, Heitz, Hanika and Dachsbacher 2017) with a specular tangent facet, as docs/integrand.md words both.
 #pragma once
 
 #include "oracle/bsdf.h"
@@ -17,6 +17,12 @@ struct Facets {
 
     bool is_flat() const { return sine == 0; }
 };
+
+/// Least cosine of a light's direction to the surface that a normal map is on, in either model.
+inline constexpr double least_light_cosine = 1e-7;
+
+/// The mapped normal p, held to a cosine of 0.01 or more to `axis`: the nearest unit vector that has it.
+dvec3 held_above(const dvec3& p, const dvec3& axis);
 
 /// n and mapped: mesh and mapped normal (the same one where there is no map), n on the side of `geometric`.
 Facets make_facets(const dvec3& geometric, const dvec3& n, const dvec3& mapped, const dvec3& o);

@@ -83,7 +83,8 @@ void Oracle::State::add(std::size_t index, const PathResult& path, const std::ve
 /// depends on them.
 void Oracle::State::render_run(int x, int y, std::uint64_t run, std::uint64_t first, std::uint64_t end) {
     const Camera& camera = world.scene->cameras[std::size_t(settings.camera)];
-    const Paths paths{world, traversal, emitters, sky, settings.distribution, settings.mode, settings.max_depth};
+    const Paths paths{world,         traversal,          emitters,           sky, settings.distribution,
+                      settings.mode, settings.max_depth, settings.normal_maps};
     const double width = settings.width;
     const double height = settings.height;
     const auto index = std::size_t(y) * std::size_t(settings.width) + std::size_t(x);

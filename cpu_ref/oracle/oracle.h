@@ -18,6 +18,7 @@ struct OracleSettings {
     std::uint64_t seed = 0;
     oracle::Mode mode = oracle::Mode::mis;
     oracle::Distribution distribution = oracle::Distribution::ggx;
+    oracle::NormalMaps normal_maps = oracle::NormalMaps::shading;
     int camera = 0;         // index into the scene's cameras
     bool by_depth = false;  // keep OracleImage::depths
 };

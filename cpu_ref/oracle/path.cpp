@@ -19,7 +19,7 @@ struct Vertex {
 
 /// Of the material's draws at the vertex, a steradian.
 double scatter_density(const Vertex& vertex, const dvec3& direction) {
-    return density(vertex.surface.facets, vertex.surface.bsdf, vertex.surface.o, direction);
+    return density(vertex.surface.normals, vertex.surface.bsdf, vertex.surface.o, direction);
 }
 
 class PathTracer {
@@ -86,7 +86,7 @@ Ray PathTracer::ray_from(const Vertex& vertex, const dvec3& direction) {
 
 dvec3 PathTracer::from_punctual(const Vertex& vertex, const PunctualLight& light) {
     const PunctualSample sample = sample_punctual(paths_.world, light, vertex.surface.position);
-    const dvec3 f = evaluate(vertex.surface.facets, vertex.surface.bsdf, vertex.surface.o, sample.direction);
+    const dvec3 f = evaluate(vertex.surface.normals, vertex.surface.bsdf, vertex.surface.o, sample.direction);
     const dvec3 value = f * sample.irradiance;
     if (value == dvec3(0)) {
         return value;
@@ -119,7 +119,7 @@ dvec3 PathTracer::from_emitters(const Vertex& vertex) {
     }
     const dvec3 direction = to / distance;
     const double geometry = std::abs(dot(direction, emitter.front)) / (distance * distance);
-    const dvec3 f = evaluate(vertex.surface.facets, vertex.surface.bsdf, vertex.surface.o, direction);
+    const dvec3 f = evaluate(vertex.surface.normals, vertex.surface.bsdf, vertex.surface.o, direction);
     dvec3 value = f * emitted(paths_.world, emitter, point.barycentrics, -direction) *
                   (geometry / point.density * coverage(paths_.world, emitter, point.barycentrics));
     if (value == dvec3(0)) {
@@ -137,7 +137,7 @@ dvec3 PathTracer::from_emitters(const Vertex& vertex) {
 
 dvec3 PathTracer::from_sky(const Vertex& vertex) {
     const SkyMap::Direction sample = paths_.sky.sample(random_);
-    const dvec3 f = evaluate(vertex.surface.facets, vertex.surface.bsdf, vertex.surface.o, sample.direction);
+    const dvec3 f = evaluate(vertex.surface.normals, vertex.surface.bsdf, vertex.surface.o, sample.direction);
     if (f == dvec3(0)) {
         return f;
     }
@@ -167,21 +167,21 @@ double PathTracer::share_of_sky(const dvec3& direction) const {
 
 Scattered PathTracer::scatter_uniformly(const Surface& surface) {
     if (surface.bsdf.is_mirror() && random_.uniform() < 0.5) {
-        Scattered drawn = sample(surface.facets, surface.bsdf, surface.o, true, random_);
+        Scattered drawn = sample(surface.normals, surface.bsdf, surface.o, true, random_);
         drawn.weight *= 2.0;
         return drawn;
     }
     Scattered drawn;
     const double cosine = random_.uniform();
     drawn.i = around(surface.normal, cosine, 2 * pi * random_.uniform());
-    drawn.weight = evaluate(surface.facets, surface.bsdf, surface.o, drawn.i) * (2 * pi);
+    drawn.weight = evaluate(surface.normals, surface.bsdf, surface.o, drawn.i) * (2 * pi);
     drawn.weight *= surface.bsdf.is_mirror() ? 2.0 : 1.0;
     return drawn;
 }
 
 Scattered PathTracer::scatter(const Surface& surface) {
     return paths_.mode == Mode::hemisphere ? scatter_uniformly(surface)
-                                           : sample(surface.facets, surface.bsdf, surface.o, false, random_);
+                                           : sample(surface.normals, surface.bsdf, surface.o, false, random_);
 }
 
 PathResult PathTracer::trace(Ray ray) {
@@ -195,9 +195,9 @@ PathResult PathTracer::trace(Ray ray) {
             add(depth, radiance * share_of_sky(ray.direction));
             return result_;
         }
-        const Surface surface = make_surface(paths_.world, paths_.model, *hit, -ray.direction);
+        const Surface surface = make_surface(paths_.world, paths_.model, paths_.normal_maps, *hit, -ray.direction);
         if (depth == 0) {
-            result_.first = {surface.base_color, surface.facets.p, length(surface.position - eye)};
+            result_.first = {surface.base_color, shown_normal(surface.normals), length(surface.position - eye)};
         }
         if (surface.emission != dvec3(0)) {
             add(depth, surface.emission * share_of_emission(ray, *hit));

@@ -33,12 +33,13 @@ struct Paths {
     Distribution model = Distribution::ggx;
     Mode mode = Mode::bsdf;
     unsigned max_depth = 8;
+    NormalMaps normal_maps = NormalMaps::shading;
 };
 
 /// What a ray from the camera met first; zero on a miss.
 struct FirstHit {
     dvec3 base_color{0};
-    dvec3 normal{0};  // shading normal, bent and mapped, world
+    dvec3 normal{0};  // the mapped normal, held above the surface; the bent one where there is no map; world
     double distance = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include "oracle/bsdf.h"
 #include "oracle/random.h"
+#include "oracle/world.h"
 
 namespace diptych::oracle {
 
@@ -36,7 +37,7 @@ dvec3 texel(const Environment& environment, int x, int y) {
 
 /// Between the texel centres around the point, of texel(column, row): wrapped in u, held in v.
 template <typename Texel>
-auto bilinear(const Environment& environment, const dvec2& point, Texel at) {
+auto filtered(const Environment& environment, const dvec2& point, Texel at) {
     const double across = point.x * environment.width - 0.5;
     const double down = point.y * environment.height - 0.5;
     const double fx = across - std::floor(across);
@@ -45,8 +46,7 @@ auto bilinear(const Environment& environment, const dvec2& point, Texel at) {
     const int right = (left + 1) % environment.width;
     const int top = glm::clamp(int(std::floor(down)), 0, environment.height - 1);
     const int bottom = glm::clamp(int(std::floor(down)) + 1, 0, environment.height - 1);
-    return (at(left, top) * (1 - fx) + at(right, top) * fx) * (1 - fy) +
-           (at(left, bottom) * (1 - fx) + at(right, bottom) * fx) * fy;
+    return bilinear(at(left, top), at(right, top), at(left, bottom), at(right, bottom), fx, fy);
 }
 
 double texel_weight(const Environment& environment, int x, int y) {
@@ -64,7 +64,7 @@ dvec3 environment_radiance(const Environment& environment, const dvec3& directio
         return dvec3(environment.scale);
     }
     const auto at = [&](int x, int y) { return texel(environment, x, y); };
-    return bilinear(environment, map_point(environment, direction), at) * dvec3(environment.scale);
+    return filtered(environment, map_point(environment, direction), at) * dvec3(environment.scale);
 }
 
 SkyMap::SkyMap(const Environment& environment) : environment_(environment) {
@@ -100,7 +100,7 @@ double SkyMap::density(const dvec3& direction) const {
         return 0;
     }
     const auto weight = [&](int x, int y) { return texel_weight(environment_, x, y); };
-    const double there = bilinear(environment_, map_point(environment_, direction), weight);
+    const double there = filtered(environment_, map_point(environment_, direction), weight);
     const double sine = std::sqrt(glm::max(1 - direction.y * direction.y, 1e-300));
     return there * double(weight_up_to_.size()) / (weight_up_to_.back() * 2 * pi * pi * sine);
 }

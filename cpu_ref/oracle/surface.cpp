@@ -6,6 +6,9 @@ namespace diptych::oracle {
 
 namespace {
 
+/// The part of a tangent across the normal that still tells a direction, of the tangent's length.
+constexpr double least_part_across = 1e-4;
+
 dvec4 base_color(const World& world, const Triangle& triangle, dvec2 uv) {
     const Material& m = *triangle.material;
     const dvec4 vertex =
@@ -56,13 +59,16 @@ dvec3 mapped_normal(const World& world, const Triangle& triangle, dvec2 uv, cons
     const Frame& frame = world.frames[triangle.frame];
     const dvec3 along = frame.linear * dvec3(tangent);
     const dvec3 across = along - dot(along, n) * n;
-    if (!(length(across) > 1e-12 * length(along))) {
+    if (!(length(across) > least_part_across * length(along))) {
         return n;
     }
     const dvec3 t = normalize(across);
     const dvec3 b = cross(n, t) * ((tangent.w < 0) != frame.mirrored ? -1.0 : 1.0);
     const dvec4 texel = sample_texture(*world.scene, m.normal_texture, triangle, uv, Encoding::linear);
     const dvec3 local = (2.0 * dvec3(texel) - 1.0) * dvec3(m.normal_scale, m.normal_scale, 1);
+    if (local.x == 0 && local.y == 0 && local.z > 0) {
+        return n;  // exactly: a rounded n would scatter as a mapped normal does
+    }
     const dvec3 mapped = local.x * t + local.y * b + local.z * n;
     const double size = length(mapped);
     return size > 0 ? mapped / size : n;
@@ -92,12 +98,13 @@ double coverage(const World& world, const Triangle& triangle, dvec2 uv) {
     }
     const double a = base_color(world, triangle, uv).a;
     if (m.alpha_mode == AlphaMode::mask) {
-        return a >= double(m.alpha_cutoff) ? 1 : 0;
+        // Both in single precision: a texel's 128/255 equals a cutoff that the file gives as 0.50196078.
+        return float(a) >= m.alpha_cutoff ? 1 : 0;
     }
     return glm::clamp(a, 0.0, 1.0);
 }
 
-Surface make_surface(const World& world, Distribution model, const Hit& hit, const dvec3& o) {
+Surface make_surface(const World& world, Distribution model, NormalMaps maps, const Hit& hit, const dvec3& o) {
     const Triangle& triangle = world.triangles[hit.triangle];
     const dvec2 uv = hit.barycentrics;
     Surface surface;
@@ -111,7 +118,7 @@ Surface make_surface(const World& world, Distribution model, const Hit& hit, con
     const dvec3 n = mesh_normal(world, triangle, uv);
     const dvec3 p = mapped_normal(world, triangle, uv, n);
     const double side = dot(n, surface.normal) < 0 ? -1 : 1;
-    surface.facets = make_facets(surface.normal, side * n, side * p, o);
+    surface.normals = make_normals(maps, surface.normal, side * n, side * p, o);
     return surface;
 }
 

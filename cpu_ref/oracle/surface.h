@@ -3,7 +3,7 @@
 #pragma once
 
 #include "oracle/bsdf.h"
-#include "oracle/facets.h"
+#include "oracle/normals.h"
 #include "oracle/traversal.h"
 #include "oracle/world.h"
 
@@ -18,11 +18,11 @@ struct Surface {
     dvec3 emission;  // radiance toward o
     bool scatters;
     Bsdf bsdf;
-    Facets facets;
+    Normals normals;  // for shading
 };
 
 /// `o` is a unit vector; the surface's `scatters` is false where it is unlit.
-Surface make_surface(const World& world, Distribution model, const Hit& hit, const dvec3& o);
+Surface make_surface(const World& world, Distribution model, NormalMaps maps, const Hit& hit, const dvec3& o);
 
 /// Radiance that leaves the point toward `o`.
 dvec3 emitted(const World& world, const Triangle& triangle, dvec2 barycentrics, const dvec3& o);

@@ -75,8 +75,8 @@ dvec4 sample_texture(const Scene& scene, const TextureSlot& slot, const Triangle
     const double y = std::floor(v - 0.5);
     const double fx = u - 0.5 - x;
     const double fy = v - 0.5 - y;
-    return (reader.texel(x, y) * (1 - fx) + reader.texel(x + 1, y) * fx) * (1 - fy) +
-           (reader.texel(x, y + 1) * (1 - fx) + reader.texel(x + 1, y + 1) * fx) * fy;
+    return bilinear(reader.texel(x, y), reader.texel(x + 1, y), reader.texel(x, y + 1), reader.texel(x + 1, y + 1), fx,
+                    fy);
 }
 
 }  // namespace diptych::oracle

@@ -54,12 +54,21 @@ inline dvec3 point_on(const Triangle& triangle, dvec2 uv) {
     return triangle.a + uv.x * triangle.ab + uv.y * triangle.ac;
 }
 
-/// An attribute between the three vertices; `values` is not empty.
+/// An attribute between the three vertices; `values` is not empty. An attribute that is equal at the three keeps its
+/// value exactly, which weights that sum to 1 only up to rounding would not give.
 template <typename T>
 auto interpolate(const std::vector<T>& values, const Triangle& triangle, dvec2 uv) {
     using Double = glm::vec<T::length(), double>;
-    return Double(values[triangle.vertex.x]) * (1 - uv.x - uv.y) + Double(values[triangle.vertex.y]) * uv.x +
-           Double(values[triangle.vertex.z]) * uv.y;
+    const Double a(values[triangle.vertex.x]);
+    return a + uv.x * (Double(values[triangle.vertex.y]) - a) + uv.y * (Double(values[triangle.vertex.z]) - a);
+}
+
+/// Between the values of four neighbours, fx of the way to the right and fy of the way down, in the same form.
+template <typename T>
+T bilinear(const T& top_left, const T& top_right, const T& bottom_left, const T& bottom_right, double fx, double fy) {
+    const T top = top_left + fx * (top_right - top_left);
+    const T bottom = bottom_left + fx * (bottom_right - bottom_left);
+    return top + fy * (bottom - top);
 }
 
 }  // namespace diptych::oracle

@@ -63,6 +63,8 @@ OracleSettings oracle_settings(const RenderSettings& settings, oracle::Mode mode
     out.seed = settings.seed;
     out.mode = mode;
     out.distribution = settings.brdf == BrdfModel::ggx ? oracle::Distribution::ggx : oracle::Distribution::blinn_phong;
+    out.normal_maps = settings.normal_maps == NormalMaps::shading ? oracle::NormalMaps::shading
+                                                                  : oracle::NormalMaps::microfacet;
     out.camera = settings.camera;
     return out;
 }

@@ -55,7 +55,7 @@ void follow(const Room& room, Ray ray, Random& random, std::vector<Contribution>
             return;
         }
         const Triangle& triangle = room.world.triangles[hit->triangle];
-        const Surface surface = make_surface(room.world, Distribution::ggx, *hit, -ray.direction);
+        const Surface surface = make_surface(room.world, Distribution::ggx, NormalMaps::shading, *hit, -ray.direction);
         if (depth > 0 && surface.emission != dvec3(0)) {
             const double geometry = std::abs(dot(ray.direction, triangle.front)) / (hit->t * hit->t);
             const double share = scattered * geometry / (scattered * geometry + room.by_power.density(hit->triangle));
@@ -70,20 +70,20 @@ void follow(const Room& room, Ray ray, Random& random, std::vector<Contribution>
         const dvec3 to = point_on(lamp, point.barycentrics) - surface.position;
         const dvec3 direction = normalize(to);
         const double geometry = std::abs(dot(direction, lamp.front)) / dot(to, to);
-        const double light = mean_of(throughput * evaluate(surface.facets, surface.bsdf, surface.o, direction) *
+        const double light = mean_of(throughput * evaluate(surface.normals, surface.bsdf, surface.o, direction) *
                                      emitted(room.world, lamp, point.barycentrics, -direction)) *
                              geometry;
         const Ray shadow{surface.position, direction, hit->triangle, point.triangle, length(to) * (1 - 1e-9)};
         if (light > 0 && point.triangle != hit->triangle && !room.traversal.any(shadow)) {
-            const double both = point.density + density(surface.facets, surface.bsdf, surface.o, direction) * geometry;
+            const double both = point.density + density(surface.normals, surface.bsdf, surface.o, direction) * geometry;
             found.push_back({depth + 1, light / both, light / room.by_area.density(point.triangle)});
         }
-        const Scattered next = sample(surface.facets, surface.bsdf, surface.o, false, random);
+        const Scattered next = sample(surface.normals, surface.bsdf, surface.o, false, random);
         if (next.weight == dvec3(0)) {
             return;
         }
-        evaluated = throughput * evaluate(surface.facets, surface.bsdf, surface.o, next.i);
-        scattered = density(surface.facets, surface.bsdf, surface.o, next.i);
+        evaluated = throughput * evaluate(surface.normals, surface.bsdf, surface.o, next.i);
+        scattered = density(surface.normals, surface.bsdf, surface.o, next.i);
         throughput *= next.weight;
         ray = Ray{surface.position, next.i, hit->triangle};
     }

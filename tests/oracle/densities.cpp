@@ -70,29 +70,35 @@ Bsdf bsdf_of(Distribution model, double alpha, double diffuse, double f0) {
 
 }  // namespace
 
-TEST_CASE("materials are drawn with the density they state, mapped ones over all their facets", "[oracle]") {
+TEST_CASE("materials are drawn with the density they state, mapped ones by both models", "[oracle]") {
     const dvec3 up(0, 0, 1);
     std::uint64_t stream = 0;
     for (const Distribution model : {Distribution::ggx, Distribution::blinn_phong}) {
         for (const Bsdf& bsdf : {bsdf_of(model, 0.3, 0.5, 0.04), bsdf_of(model, 0.6, 0, 0.8), bsdf_of(model, 1, 0.8, 0),
                                  bsdf_of(model, 0, 0.5, 0.3)}) {
             for (const double cosine : {0.95, 0.3}) {
-                for (const dvec3& mapped : {up, from_angles(0.8, 2), from_angles(0.5, 0.4)}) {
-                    const dvec3 o = from_angles(cosine, 0.3);
-                    const Facets facets = make_facets(up, up, mapped, o);
+                const dvec3 o = from_angles(cosine, 0.3);
+                const auto check = [&](NormalMaps maps, const dvec3& mapped) {
+                    const Normals normals = make_normals(maps, up, up, mapped, o);
                     INFO((model == Distribution::ggx ? "ggx" : "blinn-phong")
                          << " alpha " << bsdf.alpha << " diffuse " << bsdf.diffuse.x << " cos " << cosine << " map "
-                         << mapped.z);
+                         << mapped.z << (maps == NormalMaps::shading ? " shading" : " microfacet"));
                     Random random(5, ++stream, 0);
                     std::vector<double> counts(cells);
                     const int draws = 40000;
                     for (int k = 0; k < draws; ++k) {
-                        const Scattered drawn = sample(facets, bsdf, o, false, random);
+                        const Scattered drawn = sample(normals, bsdf, o, false, random);
                         if (drawn.weight != dvec3(0) && !drawn.mirrored) {
                             ++counts[cell_of(drawn.i)];
                         }
                     }
-                    check_counts(counts, integrate([&](const dvec3& i) { return density(facets, bsdf, o, i); }), draws);
+                    const auto stated = [&](const dvec3& i) { return density(normals, bsdf, o, i); };
+                    check_counts(counts, integrate(stated), draws);
+                };
+                check(NormalMaps::shading, up);
+                for (const dvec3& mapped : {from_angles(0.8, 2), from_angles(0.5, 0.4), from_angles(0.2, 3.3)}) {
+                    check(NormalMaps::shading, mapped);
+                    check(NormalMaps::microfacet, mapped);
                 }
             }
         }

@@ -60,8 +60,11 @@ Scene mixed_scene() {
 TEST_CASE("mis finds at each bounce what the other modes find", "[oracle]") {
     const Scene scene = mixed_scene();
     OracleSettings settings = small_settings(8, 8, 3);
-    for (const Distribution model : {Distribution::ggx, Distribution::blinn_phong}) {
+    for (const auto& [model, maps] : {std::pair(Distribution::ggx, NormalMaps::shading),
+                                      std::pair(Distribution::blinn_phong, NormalMaps::shading),
+                                      std::pair(Distribution::ggx, NormalMaps::microfacet)}) {
         settings.distribution = model;
+        settings.normal_maps = maps;
         settings.mode = Mode::mis;
         const Rendered mis = render(scene, settings, 3000);
         for (const Mode mode : {Mode::bsdf, Mode::hemisphere, Mode::area}) {
@@ -69,7 +72,9 @@ TEST_CASE("mis finds at each bounce what the other modes find", "[oracle]") {
             settings.seed += 1;
             const Rendered other = render(scene, settings, 6000);
             for (unsigned k = 0; k <= 3; ++k) {
-                INFO((model == Distribution::ggx ? "ggx, " : "blinn-phong, ") << name_of(mode) << ", depth " << k);
+                INFO((model == Distribution::ggx ? "ggx, " : "blinn-phong, ")
+                     << (maps == NormalMaps::shading ? "shading, " : "microfacet, ") << name_of(mode) << ", depth "
+                     << k);
                 check_equal(mis.depth(k), other.depth(k), k == 0 ? 0.02 : mode == Mode::hemisphere ? 0.08 : 0.06);
             }
         }
