@@ -1,5 +1,5 @@
-// The bent normal of a surface without a map, and the model `microfacet` of normal maps: microfacet-based normal mapping
-// (Schüssler, Heitz, Hanika and Dachsbacher 2017) with a specular tangent facet, as docs/integrand.md words both.
+// The bent normal of a surface without a map, and the model `microfacet` of normal maps: microfacet-based normal
+// mapping (Schüssler, Heitz, Hanika and Dachsbacher 2017) with a specular tangent facet, as docs/integrand.md words both.
 #pragma once
 
 #include "oracle/bsdf.h"

@@ -57,8 +57,7 @@ dvec3 evaluate(const Mapped& m, const Bsdf& bsdf, const dvec3& o, const dvec3& i
     const dvec3 h = normalize(o + i);
     const dvec3 diffuse = bsdf.diffuse / pi * (1.0 - fresnel(bsdf, dot(o, h))) * glm::max(dot(i, m.p), 0.0);
     const Bsdf specular = specular_part(bsdf);
-    const dvec3 reflected =
-        evaluate(specular, m.q, o, i) + evaluate(specular, m.q, o, flip_across(i, m.geometric));
+    const dvec3 reflected = evaluate(specular, m.q, o, i) + evaluate(specular, m.q, o, flip_across(i, m.geometric));
     return sinking_factor(m, m.p, 1, i) * diffuse + sinking_factor(m, m.q, bsdf.alpha, i) * reflected;
 }
 

@@ -1,4 +1,5 @@
-// The model `shading` of normal maps: the mapped normal takes the place of the surface's, as docs/integrand.md words it.
+// The model `shading` of normal maps: the mapped normal takes the place of the surface's (docs/integrand.md: Normal
+// maps).
 #pragma once
 
 #include "oracle/bsdf.h"
