@@ -176,16 +176,16 @@ TEST_CASE("a map is not used where its tangent runs along the normal", "[oracle]
 }
 
 TEST_CASE("a map that is scaled to nothing leaves the surface's own scattering", "[oracle]") {
-    Scene scene = mapped_square(200, 90);
-    scene.materials[0].normal_scale = 0;
-    square_of(scene).normals.assign(4, normalize(vec3(0.3F, -0.2F, 1)));
-    Scene plain = scene;
-    plain.materials[0].normal_texture.texture = none;
-    for (const dvec3& o : {dvec3(0, 0, 1), normalize(dvec3(-1, 0.6, 0.05))}) {
-        CHECK(normal_at(scene, {0.3, 0.3}, o) == normal_at(plain, {0.3, 0.3}, o));
+    Random random(12, 0, 0);
+    for (int k = 0; k < 50; ++k) {  // normals, of which rounding would change most
+        Scene scene = mapped_square(200, 90);
+        scene.materials[0].normal_scale = 0;
+        square_of(scene).normals.assign(4, normalize(vec3(float(random.uniform()), float(random.uniform()), 1)));
         const World world = make_world(scene);
-        const Surface surface = make_surface(world, Distribution::ggx, NormalMaps::shading, {0, {0.3, 0.3}, 1}, o);
-        CHECK(std::holds_alternative<Facets>(surface.normals));
+        for (const dvec3& o : {dvec3(0, 0, 1), normalize(dvec3(-1, 0.6, 0.05))}) {
+            const Surface surface = make_surface(world, Distribution::ggx, NormalMaps::shading, {0, {0.3, 0.3}, 1}, o);
+            CHECK(std::holds_alternative<Facets>(surface.normals));
+        }
     }
 }
 
