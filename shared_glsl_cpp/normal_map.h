@@ -10,7 +10,7 @@ SHARED_BEGIN
 
 CONST float REFLECTION_COS = 0.1f;       // a mirror reflection about the specular normal has at least this cosine to ng, or
 CONST float REFLECTION_COS_SHARE = 0.9f; // this share of wo's own
-CONST float TERMINATOR_RANGE = 0.3f;
+CONST float TERMINATOR_RANGE = 0.25f;  // cosine to ng below which light fades, at the most
 
 /// q of the integrand's equation 1: n, turned towards ng until wo's mirror direction leaves the surface. Cycles bends normals to the same
 /// end. Between ng and n the mirror direction's cosine to ng is r cos(2a - phi), with a the angle from ng, so the largest a that will
@@ -37,11 +37,11 @@ FN vec3 specular_normal(vec3 n, vec3 ng, vec3 wo) {
     return normalize((1.0f + cos_2a) * ng + sin_2a * e);
 }
 
-/// S of equations 2 and 3: 1 for light well above the surface, falling to 0 at its horizon, over a range that grows with the tilt of n and
-/// with `width`. After Chiang, Li and Burley 2019, whose factor acts on all directions.
+/// S of equations 2 and 3: 1 for light well above the surface, falling to 0 at its horizon, over a range that begins at none for a
+/// normal that does not tilt and grows with `width`. After Chiang, Li and Burley 2019, whose factor acts on all directions.
 FN float terminator_factor(vec3 n, vec3 ng, vec3 wi, float width) {
     vec3 sine = cross(n, ng);
-    float range = TERMINATOR_RANGE * width * length(sine) * dot(wi, n);
+    float range = width * min(TERMINATOR_RANGE, length(sine)) * dot(wi, n);
     float cos_i = dot(wi, ng);
     if (!(cos_i < range)) {
         return 1.0f;

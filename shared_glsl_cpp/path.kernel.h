@@ -246,16 +246,17 @@ FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
         return false;
     }
     v.bsdf = load_bsdf(surface, instance, material, wo);
+    v.seen = see_bsdf(v.bsdf, wo, features());
     RECORD(normal, v.bsdf.mapped_normal);
     if (wants_layers) {
         path.found.first_hit.albedo = xyz(base_color(material, surface.mesh));
-        path.found.first_hit.normal = v.bsdf.mapped_normal;
+        path.found.first_hit.normal =
+            v.seen.mapped == NORMAL_MAP_MICROFACET ? v.bsdf.mapped_normal : v.seen.diffuse_normal;
         path.found.first_hit.depth = hit.t;
     }
     if (last) {
         return false;
     }
-    v.seen = see_bsdf(v.bsdf, wo, features());
     v.position = surface.position;
     // Nothing is scattered through the surface.
     v.origin = offset_ray(surface.start, v.bsdf.geometric_normal, surface.magnitude);

@@ -8,8 +8,8 @@ namespace diptych::oracle {
 
 namespace {
 
-/// The range of a normal's factor, of what the normal leans by.
-constexpr double range = 0.3;
+/// The range of a normal's factor at the most; a normal that leans by less has less.
+constexpr double most_range = 0.25;
 
 bool leaves(const Mapped& m, const dvec3& i) {
     return dot(i, m.geometric) > least_light_cosine;
@@ -17,7 +17,7 @@ bool leaves(const Mapped& m, const dvec3& i) {
 
 /// S of eq. 3: takes light to 0 where it sinks below the surface.
 double sinking_factor(const Mapped& m, const dvec3& n, double width, const dvec3& i) {
-    const double lean = range * width * length(cross(n, m.geometric)) * dot(i, n);
+    const double lean = width * glm::min(most_range, length(cross(n, m.geometric))) * dot(i, n);
     const double x = lean > 0 ? glm::min(1.0, dot(i, m.geometric) / lean) : 1;
     return x + x * x - x * x * x;
 }

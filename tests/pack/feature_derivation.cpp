@@ -37,6 +37,14 @@ const std::vector<Case>& cases() {
          FEATURE_TEXTURES | FEATURE_MIRRORS},
         {"normal map", [](Scene& s, RenderSettings&) { material(s).normal_texture.texture = add_texture(s); },
          FEATURE_TEXTURES | FEATURE_NORMAL_MAPS},
+        {"microfacet normal map",
+         [](Scene& s, RenderSettings& r) {
+             material(s).normal_texture.texture = add_texture(s);
+             r.normal_maps = NormalMaps::microfacet;
+         },
+         FEATURE_TEXTURES | FEATURE_NORMAL_MAPS | FEATURE_MICROFACET_NORMAL_MAPS},
+        {"microfacet normal maps without a map",
+         [](Scene&, RenderSettings& r) { r.normal_maps = NormalMaps::microfacet; }, 0},
         {"second set",
          [](Scene& s, RenderSettings&) {
              material(s).specular_texture.texture = add_texture(s);

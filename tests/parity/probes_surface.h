@@ -75,7 +75,7 @@ FN float probe_specular_normal_scale(vec3 n, vec3 ng, vec3 wo) {
 FN float probe_terminator_scale(vec3 n, vec3 ng, vec3 wi, float width) {
     float sine = length(cross(n, ng));
     float cos_i = max(dot(wi, n), 1.0e-6f);
-    float range = TERMINATOR_RANGE * width * sine * cos_i;
+    float range = width * min(TERMINATOR_RANGE, sine) * cos_i;
     return dot(wi, ng) < 1.01f * range ? 2.0f * (1.0f / range + 1.0f / max(sine, 1.0e-6f) + 1.0f / cos_i) : 1.0f;
 }
 

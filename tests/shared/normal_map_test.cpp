@@ -2,6 +2,7 @@
 #include "normal_map.h"
 
 #include <array>
+#include <cstdio>
 
 #include "catch.h"
 #include "direction_chi_square.h"
@@ -29,13 +30,13 @@ vec3 at_degrees(double angle, double azimuth) {
 }
 
 /// On the plane z = 0, mapped towards azimuth 0.
-SurfaceBsdf tilted_surface(const BsdfParameters& p, double tilt) {
+SurfaceBsdf tilted_surface(const BsdfParameters& p, double tilt, uint model = NORMAL_MAP_SHADING) {
     SurfaceBsdf s;
     s.parameters = p;
     s.geometric_normal = up;
     s.shading_normal = up;
     s.mapped_normal = at_degrees(tilt, 0.0);
-    s.mapped = normal_map_model(NORMAL_MAP_SHADING, up, s.mapped_normal);
+    s.mapped = normal_map_model(model, up, s.mapped_normal);
     return s;
 }
 
@@ -133,7 +134,7 @@ TEST_CASE("Light of a mapped surface fades where it sinks below the surface") {
             for (double c = 2e-3; c < 0.5; c += 2e-3) {
                 most = std::max(most, value(c));
                 if (p.diffuse.x > 0.0f) {  // no more than a flat surface's, which a light of so many times the power lights
-                    const double times = 1.25 / (0.3 * std::sin(tilt * M_PI / 180.0));
+                    const double times = 1.25 / std::min(0.25, std::sin(tilt * M_PI / 180.0));
                     CHECK(value(c) < std::max(times, 1.0) * c / M_PI + 1e-6);
                 }
             }
@@ -166,4 +167,82 @@ TEST_CASE("The specular normal is the nearest to the mapped one whose mirror dir
     }
     CHECK(bad == 0);
     CHECK(turned > 10000);
+}
+
+namespace {
+
+/// Factors on light at a cosine to the surface, for the comparison below.
+using Terminator = double (*)(double cos_surface, double cos_mapped, double cos_tilt);
+
+double chiang(double cos_surface, double cos_mapped, double cos_tilt) {
+    const double g = std::min(1.0, cos_surface / (cos_mapped * cos_tilt));
+    return g + g * g - g * g * g;
+}
+
+double conty_estevez(double cos_surface, double /*cos_mapped*/, double cos_tilt) {
+    const double alpha2 = std::min(1.0, 0.125 * (1 - cos_tilt * cos_tilt) / (cos_tilt * cos_tilt));
+    const double tan2 = (1 - cos_surface * cos_surface) / (cos_surface * cos_surface);
+    return 2 / (1 + std::sqrt(1 + alpha2 * tan2));
+}
+
+double ours(double cos_surface, double cos_mapped, double cos_tilt) {
+    const double x = std::min(1.0, cos_surface / (std::min(0.25, std::sqrt(1 - cos_tilt * cos_tilt)) * cos_mapped));
+    return x + x * x - x * x * x;
+}
+
+void print_albedos(const char* name, const BsdfParameters& p) {
+    for (const double tilt : {20.0, 46.0, 60.0}) {
+        for (const uint model : {NORMAL_MAP_SHADING, NORMAL_MAP_MICROFACET}) {
+            std::printf("| %s | %g | %s |", name, tilt, model == NORMAL_MAP_SHADING ? "shading" : "microfacet");
+            for (const double view : {0.0, 45.0, 80.0, 85.0, 89.0}) {
+                const double flat = albedo(tilted_surface(p, 0.0), at_degrees(view, 0.0), 100);
+                double least = 2;
+                double most = 0;
+                for (int k = 0; k <= 8; ++k) {
+                    const double seen = albedo(tilted_surface(p, tilt, model), at_degrees(view, M_PI * k / 8), 100);
+                    least = std::min(least, seen);
+                    most = std::max(most, seen);
+                }
+                std::printf(" %.3f to %.3f (%.3f) |", least, most, flat);
+            }
+            std::printf("\n");
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Tables of docs/decisions/0020", "[.][table]") {
+    std::printf("| material | tilt | model | view 0 | 45 | 80 | 85 | 89 |\n|---|---|---|---|---|---|---|---|\n");
+    print_albedos("white diffuse", white_diffuse());
+    print_albedos("metal, mirror", white_metal(0.0f));
+    print_albedos("metal, roughness 0.3", white_metal(0.3f));
+    print_albedos("metal, roughness 0.6", white_metal(0.6f));
+    print_albedos("metal, roughness 1", white_metal(1.0f));
+
+    std::printf("\n| factor | tilt | light at 45 | 60 | 70 | 75 | 80 | 85 | 88 | white sky |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    const std::array<std::pair<const char*, Terminator>, 3> factors = {
+        {{"Chiang et al. 2019", chiang}, {"Conty Estevez et al. 2019", conty_estevez}, {"ours", ours}}};
+    for (const auto& [name, factor] : factors) {
+        for (const double tilt : {17.0, 30.0, 45.0, 60.0}) {
+            std::printf("| %s | %g |", name, tilt);
+            const double t = tilt * M_PI / 180;
+            for (const double light : {45.0, 60.0, 70.0, 75.0, 80.0, 85.0, 88.0}) {
+                const double l = light * M_PI / 180;
+                std::printf(" %.3f |", factor(std::cos(l), std::cos(l - t), std::cos(t)));
+            }
+            double sum = 0;
+            constexpr int side = 400;
+            for (int i = 0; i < side; ++i) {
+                for (int j = 0; j < side; ++j) {
+                    const double z = std::sqrt((i + 0.5) / side);
+                    const double r = std::sqrt(1 - z * z);
+                    const double phi = 2 * M_PI * (j + 0.5) / side;
+                    const double above = z * std::cos(t) - r * std::cos(phi) * std::sin(t);
+                    sum += above > 0 ? factor(above, z, std::cos(t)) : 0;
+                }
+            }
+            std::printf(" %.3f |\n", sum / side / side);
+        }
+    }
 }
