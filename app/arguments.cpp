@@ -85,7 +85,7 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
     command.add_option("--size", arguments.size,
                        "WIDTHxHEIGHT in pixels, or a height: the camera's aspect gives the width");
     command.add_option("--camera", request.camera, "Camera by name or index; the first by default");
-    command.add_option("--env", request.environment, "Light from infinity: R,G,B radiance, or a .hdr or .exr panorama");
+    command.add_option("--env", request.environment, "Light from infinity: R,G,B radiance, or a .hdr or .exr panorama, of which FILE:LAYER is one layer or part");
     command.add_option("--env-scale", request.environment_scale, "Factor on that light")->check(non_negative_number());
     command.add_option("--env-rotate", request.environment_rotation, "Degrees it is turned about +Y")
         ->check(finite_number());

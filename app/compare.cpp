@@ -13,6 +13,7 @@
 #include "image/figures.h"
 #include "image/image_file.h"
 #include "image/metrics.h"
+#include "image/picture_name.h"
 #include "image/tonemap_image.h"
 #include "report.h"
 
@@ -24,10 +25,13 @@ constexpr const char* compare_examples = R"(Examples:
   diptych compare picture.exr reference.exr
   diptych compare cpu.exr vulkan.exr -o difference.png
   diptych compare cpu.exr vulkan.exr --max-z 4 --max-relmse 0.01
+  diptych compare picture.exr:albedo other.exr:beauty
   diptych compare picture.exr reference.exr --minus picture-0.exr,reference-0.exr
 z is the difference of the means over its standard error, which EXR files carry in a layer; it means something only where
 the two were rendered with different seeds. --minus takes something off both first: renders of --max-depth 0 with their seeds and
-samples leave the scattered light, without the noise of lamps that are seen directly. The PNG shows A, B, and a heatmap of their relative difference.)";
+samples leave the scattered light, without the noise of lamps that are seen directly. FILE:LAYER is one layer or part of an EXR.
+Pictures are what their display windows show; of crops, the pixels are compared that both files have data for. The PNG shows A, B,
+and a heatmap of their relative difference.)";
 
 struct CompareOptions {
     std::string a;
@@ -105,13 +109,82 @@ void print_numbers(const Difference& difference) {
                difference.relmse, ratio[0], ratio[1], ratio[2], z[0], z[1], z[2]);
 }
 
-/// Standard errors are of the whole, and mean nothing of the rest.
-void subtract(const std::string& path, const std::string& from, LayeredImage& image) {
-    const LayeredImage part = read_image(path);
-    if (part.color.width != image.color.width || part.color.height != image.color.height) {
-        throw Error(fmt::format("--minus {}: is {}x{}, but {} is {}x{}", path, part.color.width, part.color.height,
-                                from, image.color.width, image.color.height));
+LayeredImage read_named(const std::string& text) {
+    const PictureName name = picture_name(text);
+    LayeredImage image = read_image(name.file, name.layer);
+    if (!image.layer.empty()) {
+        report_warning(fmt::format("{}: the picture is its layer '{}'", text, image.layer));
     }
+    return image;
+}
+
+void require_same_window(const std::string& name, const LayeredImage& image, const std::string& other_name,
+                         const LayeredImage& other) {
+    const PixelWindow& window = image.display;
+    const PixelWindow& wanted = other.display;
+    if (window.width != wanted.width || window.height != wanted.height) {
+        throw Error(fmt::format("{}: is {}x{}, but {} is {}x{}", name, window.width, window.height, other_name,
+                                wanted.width, wanted.height));
+    }
+    if (window != wanted) {
+        throw Error(fmt::format("{}: its display window begins at {},{}, but that of {} at {},{}", name, window.x,
+                                window.y, other_name, wanted.x, wanted.y));
+    }
+}
+
+/// Leaves the pixels of a window in the file's coordinates.
+void crop(const PixelWindow& window, LayeredImage& image) {
+    const auto cut = [&](Image& layer) {
+        Image part = make_image(window.width, window.height, layer.channels);
+        const auto row = static_cast<std::ptrdiff_t>(window.width) * layer.channels;
+        for (int y = 0; y < window.height; ++y) {
+            const float* from = &layer.data[layer.index(window.x - image.display.x, window.y - image.display.y + y, 0)];
+            std::copy(from, from + row, &part.data[part.index(0, y, 0)]);
+        }
+        layer = std::move(part);
+    };
+    cut(image.color);
+    for (std::optional<Image>* layer : {&image.standard_error, &image.albedo, &image.normal, &image.depth}) {
+        if (*layer) {
+            cut(**layer);
+        }
+    }
+}
+
+/// What the options name, cut to the pixels that all files have data for.
+struct Pictures {
+    LayeredImage a, b;
+    std::vector<LayeredImage> minus;
+};
+
+Pictures read_pictures(const CompareOptions& options) {
+    Pictures pictures{read_named(options.a), read_named(options.b), {}};
+    require_same_window(options.a, pictures.a, options.b, pictures.b);
+    PixelWindow common = intersection(pictures.a.data, pictures.b.data);
+    for (const std::string& name : options.minus) {
+        pictures.minus.push_back(read_named(name));
+        require_same_window("--minus " + name, pictures.minus.back(), options.a, pictures.a);
+        common = intersection(common, pictures.minus.back().data);
+    }
+    if (common == pictures.a.display) {
+        return pictures;
+    }
+    if (common.width == 0 || common.height == 0) {
+        throw Error(fmt::format("{} and {}: no pixel of their display window has data in both", options.a, options.b));
+    }
+    report_warning(fmt::format("{} and {}: compared over {}x{} pixels from {},{}, where both have data, of {}x{}",
+                               options.a, options.b, common.width, common.height, common.x, common.y,
+                               pictures.a.display.width, pictures.a.display.height));
+    crop(common, pictures.a);
+    crop(common, pictures.b);
+    for (LayeredImage& part : pictures.minus) {
+        crop(common, part);
+    }
+    return pictures;
+}
+
+/// Standard errors are of the whole, and mean nothing of the rest.
+void subtract(const LayeredImage& part, LayeredImage& image) {
     std::transform(image.color.data.begin(), image.color.data.end(), part.color.data.begin(), image.color.data.begin(),
                    std::minus<>());
     image.standard_error.reset();
@@ -125,15 +198,12 @@ int run_compare(const CompareOptions& options) {
         }
     }
     tonemap_from_name(options.tonemap);
-    LayeredImage a = read_image(options.a);
-    LayeredImage b = read_image(options.b);
-    if (a.color.width != b.color.width || a.color.height != b.color.height) {
-        throw Error(fmt::format("{}: is {}x{}, but {} is {}x{}", options.a, a.color.width, a.color.height, options.b,
-                                b.color.width, b.color.height));
-    }
-    if (!options.minus.empty()) {
-        subtract(options.minus[0], options.a, a);
-        subtract(options.minus[1], options.b, b);
+    Pictures pictures = read_pictures(options);
+    LayeredImage& a = pictures.a;
+    LayeredImage& b = pictures.b;
+    if (!pictures.minus.empty()) {
+        subtract(pictures.minus[0], a);
+        subtract(pictures.minus[1], b);
     }
     const Difference difference = compare_images(a, b);
     const Verdict verdict = judge(difference, a, b);

@@ -133,6 +133,10 @@ Reference load_reference(const std::string& path, int width, int height) {
         throw Error(fmt::format("--reference {}: has {}x{} pixels, and {}x{} are rendered; give --size", path,
                                 image.color.width, image.color.height, width, height));
     }
+    if (image.data != image.display) {
+        throw Error(fmt::format("--reference {}: a crop: it has data for {}x{} of its {}x{} pixels", path,
+                                image.data.width, image.data.height, width, height));
+    }
     for (const float value : image.color.data) {
         if (!std::isfinite(value)) {
             throw Error(fmt::format("--reference {}: holds values that are not finite", path));

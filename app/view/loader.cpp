@@ -7,6 +7,7 @@
 #include "error.h"
 #include "report.h"
 #include "scene/gltf_files.h"
+#include "image/picture_name.h"
 #include "scene_setup.h"
 
 namespace diptych::app {
@@ -18,8 +19,9 @@ constexpr auto between_looks = std::chrono::milliseconds(250);
 std::vector<std::filesystem::path> files_of(const RenderRequest& request) {
     std::vector<std::filesystem::path> files = gltf_files(request.scene);
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(request.environment, ignored)) {
-        files.emplace_back(request.environment);
+    if (const PictureName map = picture_name(request.environment);
+        std::filesystem::is_regular_file(map.file, ignored)) {
+        files.push_back(map.file);
     }
     return files;
 }

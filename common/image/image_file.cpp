@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <exception>
 #include <memory>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
 
 #include "error.h"
 #include "image/atomic_file.h"
-#include "image/layered_image.h"
 
 namespace diptych {
 namespace {
@@ -77,43 +74,6 @@ ImageFormat image_format(const fs::path& path) {
 void check_writable(const fs::path& path) {
     image_format(path);
     check_file_can_be_created(path);
-}
-
-RawImage read_raw(const fs::path& path) {
-    const auto fail = [&](const std::string& reason) {
-        throw Error(path.string() + ": cannot read: " + first_line(reason));
-    };
-    std::error_code ignored;
-    if (!fs::exists(path, ignored))
-        fail("no such file");
-    if (fs::is_directory(path, ignored))
-        fail("it is a folder");
-
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
-    if (!input)
-        fail(OIIO::geterror());
-    const OIIO::ImageSpec& spec = input->spec();
-    if (spec.deep || spec.depth > 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
-        fail("not a flat picture");
-
-    RawImage raw;
-    try {
-        raw.image = make_image(spec.width, spec.height, spec.nchannels);
-    } catch (const std::exception&) {
-        fail("a picture of " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels with " +
-             std::to_string(spec.nchannels) + " channels does not fit in memory");
-    }
-    raw.channel_names = spec.channelnames;
-    const bool marked_linear = OIIO::Strutil::istarts_with(spec.get_string_attribute("oiio:ColorSpace"), "lin");
-    raw.srgb_encoded = !spec.format.is_floating_point() && !marked_linear;
-    for (const OIIO::ParamValue& attribute : spec.extra_attribs)
-        if (attribute.type() == OIIO::TypeString)
-            raw.attributes[attribute.name().string()] = attribute.get_ustring().string();
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, raw.image.data.data()))
-        fail(input->geterror());
-    return raw;
 }
 
 void write_exr_channels(const fs::path& path, const Image& image, const std::vector<std::string>& channel_names,

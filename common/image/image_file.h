@@ -4,10 +4,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "image/chromaticities.h"
 #include "image/image.h"
+#include "image/pixel_window.h"
 
 namespace diptych {
 
@@ -20,16 +23,26 @@ ImageFormat image_format(const std::filesystem::path& path);
 /// written to. Leaves nothing behind.
 void check_writable(const std::filesystem::path& path);
 
-/// The channels of a file by name, as they are stored there: integers scaled to [0, 1], not decoded.
+/// Channels of a file by name, as they are stored there: integers scaled to [0, 1], not decoded.
 struct RawImage {
-    Image image;
+    Image image;  // what the display window shows; 0 where the file has no data
     std::vector<std::string> channel_names;
+    std::vector<int> color;                         // the channels that are the picture: three, or one that is grey
+    bool integer = false;                           // the picture is stored as integers
     bool srgb_encoded = false;                      // integer files that are not marked as linear
+    bool xyz = false;                               // the picture's channels are CIE XYZ
+    std::optional<Chromaticities> chromaticities;   // of the picture, where the file says
+    PixelWindow display;                            // of the file (EXR); else from 0, 0
+    PixelWindow data;                               // where the file has data, cut to `display`
+    std::string layer;                              // the layer taken, where the file holds others and none was asked for
     std::map<std::string, std::string> attributes;  // string attributes
 };
 
-/// First part of any file that OpenImageIO reads. Throws an Error naming file and reason.
-RawImage read_raw(const std::filesystem::path& path);
+/// The picture of any file that OpenImageIO reads, and of Radiance files. In an EXR it is the layer of that name, or
+/// what choose_picture finds; of its part, the channels named in `beside` are read too where they are there. Throws an
+/// Error naming file, layer and reason.
+RawImage read_raw(const std::filesystem::path& path, const std::string& layer = "",
+                  const std::vector<std::string>& beside = {});
 
 /// float32, zip-compressed, one part. Channel i of the image gets channel_names[i].
 void write_exr_channels(const std::filesystem::path& path, const Image& image,

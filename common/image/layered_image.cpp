@@ -41,6 +41,13 @@ void copy_channel(const Image& from, size_t from_channel, Image& to, size_t to_c
         to.data[pixel * to_stride + to_channel] = from.data[pixel * from_stride + from_channel];
 }
 
+Image extract(const RawImage& raw, const std::vector<size_t>& sources) {
+    Image image = make_image(raw.image.width, raw.image.height, static_cast<int>(sources.size()));
+    for (size_t channel = 0; channel < sources.size(); ++channel)
+        copy_channel(raw.image, sources[channel], image, channel);
+    return image;
+}
+
 /// The named channels as an image of their own; nothing if one of them is missing.
 std::optional<Image> extract(const RawImage& raw, const std::vector<std::string>& names) {
     std::vector<size_t> sources;
@@ -50,25 +57,7 @@ std::optional<Image> extract(const RawImage& raw, const std::vector<std::string>
             return std::nullopt;
         sources.push_back(static_cast<size_t>(found - raw.channel_names.begin()));
     }
-    Image image = make_image(raw.image.width, raw.image.height, static_cast<int>(names.size()));
-    for (size_t channel = 0; channel < sources.size(); ++channel)
-        copy_channel(raw.image, sources[channel], image, channel);
-    return image;
-}
-
-Image extract_color(const std::filesystem::path& path, const RawImage& raw) {
-    if (std::optional<Image> color = extract(raw, color_channels))
-        return std::move(*color);
-    const bool has_luminance =
-        std::find(raw.channel_names.begin(), raw.channel_names.end(), "Y") != raw.channel_names.end();
-    if (has_luminance || raw.image.channels == 1) {
-        const std::string grey = has_luminance ? "Y" : raw.channel_names.front();
-        return *extract(raw, {grey, grey, grey});
-    }
-    std::string found;
-    for (const std::string& name : raw.channel_names)
-        found += (found.empty() ? "" : ", ") + name;
-    throw Error(path.string() + ": cannot read: it has neither channels R, G, B nor Y (found " + found + ")");
+    return extract(raw, sources);
 }
 
 }  // namespace
@@ -115,19 +104,40 @@ void write_exr(const std::filesystem::path& path, const LayeredImage& layers) {
     write_exr_channels(path, all, names, attributes);
 }
 
-LayeredImage read_image(const std::filesystem::path& path) {
-    const RawImage raw = read_raw(path);
-    LayeredImage layers;
-    layers.color = extract_color(path, raw);
+Image linear_color(const RawImage& raw) {
+    const bool grey = raw.color.size() == 1;
+    std::vector<size_t> sources;
+    for (size_t channel = 0; channel < 3; ++channel)
+        sources.push_back(static_cast<size_t>(raw.color[grey ? 0 : channel]));
+    Image color = extract(raw, sources);
     if (raw.srgb_encoded)
-        for (float& value : layers.color.data)
+        for (float& value : color.data)
             value = srgb_decoded(value);
-    for (const Layer& layer : optional_layers())
-        layers.*layer.image = extract(raw, layer.channels);
+    if (raw.xyz)
+        convert_color(color, xyz_to_rec709(raw.chromaticities->white));
+    else if (!grey && raw.chromaticities && !same_chromaticities(*raw.chromaticities, rec709))
+        convert_color(color, to_rec709(*raw.chromaticities));
+    return color;
+}
+
+LayeredImage read_image(const std::filesystem::path& path, const std::string& layer) {
+    std::vector<std::string> beside;
+    if (layer.empty())
+        for (const Layer& optional_layer : optional_layers())
+            beside.insert(beside.end(), optional_layer.channels.begin(), optional_layer.channels.end());
+    const RawImage raw = read_raw(path, layer, beside);
+    LayeredImage layers;
+    layers.color = linear_color(raw);
+    if (layer.empty())
+        for (const Layer& optional_layer : optional_layers())
+            layers.*optional_layer.image = extract(raw, optional_layer.channels);
     const std::string prefix = metadata_prefix;
     for (const auto& [name, value] : raw.attributes)
         if (name.compare(0, prefix.size(), prefix) == 0)
             layers.metadata[name.substr(prefix.size())] = value;
+    layers.display = raw.display;
+    layers.data = raw.data;
+    layers.layer = raw.layer;
     return layers;
 }
 

@@ -18,6 +18,10 @@ struct LayeredImage {
     std::optional<Image> normal;          // 3 channels, world space
     std::optional<Image> depth;           // 1 channel, world units
     std::map<std::string, std::string> metadata;
+    // What read_image found out about the file; write_exr does not look at it.
+    PixelWindow display;  // place and size of the picture in the file's coordinates
+    PixelWindow data;     // the part of `display` that the file has data for; the rest is 0
+    std::string layer;    // the layer of the file that `color` is, where nobody named one and the file holds others
 };
 
 /// One part, float32, zip: R G B, then stderr.R/G/B, albedo.R/G/B, normal.X/Y/Z, depth.Z for the layers that are there;
@@ -25,9 +29,14 @@ struct LayeredImage {
 /// written. Equal input gives equal bytes. Throws an Error naming file and reason.
 void write_exr(const std::filesystem::path& path, const LayeredImage& layers);
 
-/// EXR with the layers it has, or any other picture as colour alone. Integer files are decoded from sRGB to linear
-/// unless marked linear; grey becomes three equal channels; alpha is ignored. Throws an Error naming file and reason.
-LayeredImage read_image(const std::filesystem::path& path);
+/// EXR with the layers it has, or any other picture as colour alone. The picture is what the display window shows. A
+/// layer or part of an EXR can be chosen by name; then it is the colour, alone. Integer files are decoded from sRGB to
+/// linear unless marked linear; grey becomes three equal channels; alpha is ignored; other chromaticities than Rec.709's
+/// are converted. Throws an Error naming file and reason.
+LayeredImage read_image(const std::filesystem::path& path, const std::string& layer = "");
+
+/// The picture of a file as linear Rec.709: what read_image does to colours.
+Image linear_color(const RawImage& raw);
 
 /// IEC 61966-2-1, display value in [0, 1] to linear.
 float srgb_decoded(float encoded);

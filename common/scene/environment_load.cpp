@@ -1,91 +1,75 @@
 #include "scene/environment_load.h"
 
-#include <OpenImageIO/imageio.h>
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
-#include <memory>
-#include <system_error>
-#include <vector>
 
 #include "error.h"
+#include "image/layered_image.h"
+#include "image/picture_name.h"
 
 namespace diptych {
 namespace {
 
-constexpr std::int64_t max_texels = std::int64_t{1} << 28;
-
-void check_file(const std::filesystem::path& path) {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) {
-        throw Error(path.string() + ": environment map: no such file");
-    }
-    if (std::filesystem::is_directory(status)) {
-        throw Error(path.string() + ": environment map: is a folder, not a file");
-    }
-    if (std::filesystem::file_size(path, error) == 0 && !error) {
-        throw Error(path.string() + ": environment map: the file is empty");
+RawImage read_map(const PictureName& name) {
+    try {
+        return read_raw(name.file, name.layer);
+    } catch (const Error& error) {
+        throw Error(std::string("environment map ") + error.what());
     }
 }
 
-[[noreturn]] void fail_reading(const std::filesystem::path& path, std::string message) {
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    throw Error(path.string() + ": environment map: cannot be read: " + (message.empty() ? "unknown format" : message));
-}
-
-void add_line(std::string* lines, const std::string& line) {
-    if (lines != nullptr) {
-        *lines += (lines->empty() ? "" : "\n") + line;
+/// The texels of a map of three channels, negative ones as 0; their number in `negative`.
+std::vector<glm::vec3> radiance_of(const Image& color, std::size_t& negative, const std::string& what,
+                                   const RawImage& raw) {
+    std::vector<glm::vec3> texels(color.pixel_count());
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        bool is_negative = false;
+        for (int c = 0; c < 3; ++c) {
+            const float value = color.data[3 * i + static_cast<std::size_t>(c)];
+            if (!std::isfinite(value)) {
+                const std::size_t channel = static_cast<std::size_t>(raw.color[raw.color.size() == 1 ? 0 : c]);
+                const std::size_t width = static_cast<std::size_t>(color.width);
+                throw Error(fmt::format("{}: texel {},{} (from the top left), channel {}: {} is no radiance", what,
+                                        i % width, i / width, raw.channel_names[channel], value));
+            }
+            texels[i][c] = std::fmax(value, 0.0F);
+            is_negative = is_negative || value < 0;
+        }
+        negative += is_negative ? 1 : 0;
     }
+    return texels;
 }
 
 }  // namespace
 
-Environment load_environment(const std::filesystem::path& path, std::string* warnings) {
-    check_file(path);
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
-    if (!input) {
-        fail_reading(path, OIIO::geterror());
+Environment load_environment(const std::string& name, std::string* warnings) {
+    const PictureName picture = picture_name(name);
+    const std::string what = "environment map " + name;
+    const auto warn = [&](const std::string& line) {
+        if (warnings != nullptr) {
+            *warnings += (warnings->empty() ? "" : "\n") + what + ": " + line;
+        }
+    };
+    const RawImage raw = read_map(picture);
+    if (raw.integer) {
+        throw Error(what + ": holds display values, not radiance: wants an .hdr or .exr file");
     }
-    const OIIO::ImageSpec& spec = input->spec();
-    const std::int64_t texels = std::int64_t{spec.width} * spec.height;
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1 || texels > max_texels) {
-        throw Error(path.string() + ": environment map: has a size of " + std::to_string(spec.width) + "x" +
-                    std::to_string(spec.height) + "x" + std::to_string(spec.nchannels));
-    }
-    if (!spec.format.is_floating_point()) {
-        throw Error(path.string() +
-                    ": environment map: holds display values, not radiance: wants an .hdr or .exr file");
-    }
-    const int channels = spec.nchannels < 3 ? 1 : 3;
-    std::vector<float> values(static_cast<std::size_t>(texels) * static_cast<std::size_t>(channels));
-    if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data())) {
-        fail_reading(path, input->geterror());
-    }
+    const Image color = linear_color(raw);
+    std::size_t negative = 0;
     Environment environment;
     environment.kind = Environment::Kind::map;
-    environment.width = spec.width;
-    environment.height = spec.height;
-    environment.texels.resize(static_cast<std::size_t>(texels));
-    std::size_t bad = 0;
-    for (std::size_t i = 0; i < environment.texels.size(); ++i) {
-        const float* texel = values.data() + i * static_cast<std::size_t>(channels);
-        bool clean = true;
-        for (int c = 0; c < 3; ++c) {
-            const float value = texel[channels == 1 ? 0 : c];
-            const bool usable = std::isfinite(value) && value >= 0;
-            environment.texels[i][c] = usable ? value : 0.0F;
-            clean = clean && usable;
-        }
-        bad += clean ? 0 : 1;
+    environment.width = color.width;
+    environment.height = color.height;
+    environment.texels = radiance_of(color, negative, what, raw);
+    if (!raw.layer.empty()) {
+        warn("the picture is its layer '" + raw.layer + "'");
     }
-    if (bad > 0) {
-        add_line(warnings, path.string() + ": environment map: " + std::to_string(bad) +
-                               " texels are negative or not finite; set to 0");
+    if (negative > 0) {
+        warn(std::to_string(negative) + " texels are negative in Rec.709; set to 0");
     }
-    if (spec.width != 2 * spec.height) {
-        add_line(warnings, path.string() + ": environment map: " + std::to_string(spec.width) + "x" +
-                               std::to_string(spec.height) + " is not twice as wide as high; it is stretched");
+    if (color.width != 2 * color.height) {
+        warn(fmt::format("{}x{} is not twice as wide as high; it is stretched", color.width, color.height));
     }
     return environment;
 }

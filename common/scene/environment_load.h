@@ -1,18 +1,18 @@
 // Light from infinity: environment maps from files, and the sky for scenes that have no light.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "scene/scene.h"
 
 namespace diptych {
 
-/// Reads an equirectangular map (.hdr, .exr or what else OpenImageIO reads in floating point) as linear radiance, row 0
-/// (+Y) at the top. One channel is taken as grey, a fourth is left out. Texels that are negative or not finite become 0
-/// and are counted in `*warnings`, one line for each oddity, which also names a map that is not twice as wide as high.
-/// Throws Error where it cannot be read.
-Environment load_environment(const std::filesystem::path& path, std::string* warnings = nullptr);
+/// Reads an equirectangular map as linear radiance, row 0 (+Y) at the top: `FILE`, or `FILE:LAYER` for a layer or part of
+/// an EXR. The file is .hdr, .exr or what else OpenImageIO reads in floating point; how it is read, read_raw says. One
+/// channel is taken as grey, a fourth is left out. Negative texels become 0; they, a map that is not twice as wide as
+/// high, and a layer that nobody named add a line each to `*warnings`. Throws an Error where the map cannot be read or a
+/// texel is not finite.
+Environment load_environment(const std::string& name, std::string* warnings = nullptr);
 
 /// A constant sky, slightly blue, of luminance 1.
 Environment neutral_sky();

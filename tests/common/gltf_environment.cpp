@@ -1,6 +1,5 @@
 // Environment maps from files.
 #include <OpenImageIO/imageio.h>
-#include <limits>
 #include <memory>
 
 #include "catch.h"
@@ -51,11 +50,10 @@ TEST_CASE("an environment map keeps its radiance, top row first", "[environment]
 
 TEST_CASE("odd texels and shapes of an environment map are warned of", "[environment]") {
     const TemporaryFolder folder;
-    const float nan = std::numeric_limits<float>::quiet_NaN();
     std::string warnings;
     const Environment map =
-        load_environment(write_exr(folder, 2, 2, {1, nan, 1, 1, 1, 1, -1, 1, 1, 1, 1, 1}), &warnings);
-    CHECK(map.texels.at(0) == glm::vec3(1, 0, 1));
+        load_environment(write_exr(folder, 2, 2, {1, -2, -1, 1, 1, 1, -1, 1, 1, 1, 1, 1}), &warnings);
+    CHECK(map.texels.at(0) == glm::vec3(1, 0, 0));
     CHECK(map.texels.at(2) == glm::vec3(0, 1, 1));
     CHECK_THAT(warnings, Catch::Contains("2 texels") && Catch::Contains("2x2 is not twice as wide as high"));
 }

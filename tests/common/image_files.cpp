@@ -177,7 +177,7 @@ TEST_CASE("Unreadable pictures are refused with file and reason", "[image]") {
     CHECK_FALSE(contains(refusal(folder / "half.exr"), "\n"));
 
     write_exr_channels(folder / "odd.exr", make_image(2, 2, 2), {"U", "V"}, {});
-    CHECK(contains(refusal(folder / "odd.exr"), "neither channels R, G, B nor Y (found U, V)"));
+    CHECK(contains(refusal(folder / "odd.exr"), "it holds U, V, neither R, G, B nor Y"));
 }
 
 TEST_CASE("Outputs that cannot be written are refused before the work starts", "[image]") {
