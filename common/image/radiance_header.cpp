@@ -1,7 +1,8 @@
 #include "image/radiance_header.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <locale>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -59,8 +60,11 @@ bool read_format(std::string_view line, std::string_view value) {
     return value == "32-bit_rle_xyze";
 }
 
-Chromaticities read_primaries(std::string_view line, std::string_view text) {
+/// Nothing where all are 0, which common writers put for primaries that they do not know.
+std::optional<Chromaticities> read_primaries(std::string_view line, std::string_view text) {
     const std::vector<double> v = numbers(line, text, 8);
+    if (std::all_of(v.begin(), v.end(), [](double value) { return value == 0; }))
+        return std::nullopt;
     const Chromaticities space{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
     if (!is_color_space(space))
         fail("the header's line " + quoted(line) + " spans no colour space");

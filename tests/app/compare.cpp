@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/exr_bytes.h"
+#include "image/atomic_file.h"
 #include "image/layered_image.h"
 #include "process.h"
 
@@ -139,4 +141,51 @@ TEST_CASE("compare --minus takes a part off both pictures first", "[app]") {
     check_refusal(run_diptych(folder, {"compare", folder.file("a1.exr"), folder.file("a0.exr"), "--max-z", "4",
                                        "--minus", folder.file("a0.exr") + "," + folder.file("a0.exr")}),
                   2, {"--max-z"});
+}
+
+TEST_CASE("compare looks at the layers that are named, and where crops overlap", "[app]") {
+    const TemporaryFolder folder;
+    const auto part = [](const PixelWindow& data, const PixelWindow& display) {
+        image_tests::ExrPart whole = image_tests::constant_part(data, {{"R", 1.0F}, {"G", 1.0F}, {"B", 1.0F}});
+        whole.display = display;
+        for (int i = 0; i < data.width * data.height; ++i) {  // each pixel holds its column in the display window
+            whole.channels["R"][static_cast<std::size_t>(i)] = static_cast<float>(data.x + i % data.width);
+        }
+        return whole;
+    };
+    const auto write = [&](const std::string& name, const std::vector<image_tests::ExrPart>& parts) {
+        write_file_atomically(folder.file(name), image_tests::exr_bytes(parts));
+        return folder.file(name);
+    };
+    const PixelWindow display{0, 0, 12, 8};
+    const std::string left = write("left.exr", {part({0, 0, 8, 6}, display)});
+    const std::string right = write("right.exr", {part({4, 1, 8, 7}, display)});
+    const ProcessResult crops = run_diptych(folder, {"compare", left, right, "--json", "-o", folder.file("f.png")});
+    REQUIRE(crops.exit_code == 0);
+    CHECK(nlohmann::json::parse(crops.out).at("mse") == 0);
+    CHECK(contains(crops.err, "compared over 4x5 pixels from 4,1"));
+    CHECK(read_image(folder.file("f.png")).color.height == 5);
+    CHECK(run_diptych(folder, {"compare", left, left, "--minus", right + "," + right}).exit_code == 0);
+
+    const std::string corner = write("corner.exr", {part({10, 7, 2, 1}, display)});
+    check_refusal(run_diptych(folder, {"compare", left, corner}), 2, {"left.exr", "corner.exr", "has data in both"});
+    const std::string elsewhere = write("elsewhere.exr", {part({1, 0, 8, 6}, {1, 0, 12, 8})});
+    check_refusal(run_diptych(folder, {"compare", left, elsewhere}), 2, {"left.exr", "0,0", "elsewhere.exr", "1,0"});
+    check_refusal(run_diptych(folder, {"converge", generate_scene(folder, "cornell"), "-o", folder.file("c"), "--methods",
+                                       "cpu:path", "--budget", "1", "--reference", left}),
+                  2, {"--reference", "left.exr", "8x6 of its 12x8"});
+
+    image_tests::ExrPart albedo = part(display, display), beauty = part(display, display);
+    albedo.name = "albedo";
+    beauty.name = "beauty";
+    albedo.channels["G"].assign(96, 3.0F);
+    const std::string parts = write("parts.exr", {albedo, beauty});
+    const std::string whole = write("whole.exr", {part(display, display)});
+    check_refusal(run_diptych(folder, {"compare", parts, whole}), 2, {"parts.exr", "FILE:LAYER (albedo, beauty)"});
+    const auto mse = [&](const std::string& a) {
+        return nlohmann::json::parse(run_diptych(folder, {"compare", a, whole, "--json"}).out).at("mse").get<double>();
+    };
+    CHECK(mse(parts + ":beauty") == 0);
+    CHECK(mse(parts + ":albedo") == Approx(4.0 / 3));
+    check_refusal(run_diptych(folder, {"compare", parts + ":depth", whole}), 2, {"parts.exr", "no layer 'depth'"});
 }

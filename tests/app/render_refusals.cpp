@@ -81,6 +81,9 @@ TEST_CASE("render refuses options out of range or at odds", "[app]") {
     refused({"--exposure", "nan"}, {"--exposure", "nan"});
     refused({"--aperture", "nan"}, {"--aperture", "nan"});
     refused({"--env", scene}, {"environment map"});
+    write_text(folder.file("sky.hdr"), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16000 +X 16000\n");
+    refused({"--env", folder.file("sky.hdr")}, {"environment map", "sky.hdr", "at least 128000 bytes"});
+    refused({"--env", folder.file("sky.hdr:beauty")}, {"sky.hdr", "no layer 'beauty'"});
     refused({"--aperture", "0.1"}, {"--aperture", "--focus"});
     refused({"--seed", "-1"}, {"--seed"});
     refused({"--layers", "-o", folder.file("out.png")}, {"--layers", "out.png", ".exr"});

@@ -78,7 +78,7 @@ TEST_CASE("EXPOSURE and COLORCORR of a Radiance picture are divided out", "[imag
     CHECK(read("EXPOSURE=4\npfilt -1\nEXPOSURE= 0.5\n") == std::array<float, 3>{0.5f, 0.25f, 0.125f});
     CHECK(read("EXPOSURE=2\nCOLORCORR=1 0.5 0.25\n") == std::array<float, 3>{0.5f, 0.5f, 0.5f});
     // Headers of the pictures that went into this one are indented, and say nothing of it.
-    CHECK(read("\tEXPOSURE=4\nGAMMA=1\n# EXPOSURE=4\nPIXASPECT=1\n") == std::array<float, 3>{1, 0.5f, 0.25f});
+    CHECK(read("\tEXPOSURE=4\nGAMMA=1\n# EXPOSURE=4\nPRIMARIES=0 0 0 0 0 0 0 0\nPIXASPECT=1\n") == std::array<float, 3>{1, 0.5f, 0.25f});
     CHECK(pixel_of(folder, plain_header, rgbe(128, 64, 32, 0)) == std::array<float, 3>{0, 0, 0});
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("Radiance pictures that are wrong are refused by what is wrong", "[ima
     CHECK(contains(refusal(folder, header(format + "EXPOSURE=big") + pixel), "'EXPOSURE=big' wants 1 numbers"));
     CHECK(contains(refusal(folder, header(format + "COLORCORR=1 1") + pixel), "wants 3 numbers"));
     CHECK(contains(refusal(folder, header(format + "GAMMA=2.2") + pixel), "'GAMMA=2.2' says"));
-    CHECK(contains(refusal(folder, header(format + "PRIMARIES=0 0 0 0 0 0 0 0") + pixel), "spans no colour space"));
+    CHECK(contains(refusal(folder, header(format + "PRIMARIES=1 1 1 1 1 1 1 1") + pixel), "spans no colour space"));
     CHECK(contains(refusal(folder, "#?RADIANCE\n" + format), "the header has no end"));
     for (const std::string line : {"-Y 1 +Y 1", "-Y 0 +X 1", "-Y -1 +X 1", "Y 1 X 1", "-Y 1", "", "-Y 9999999999 +X 1"})
         CHECK(contains(refusal(folder, plain_header + line + "\n" + pixel), "the resolution line '" + line + "'"));
