@@ -172,7 +172,7 @@ TEST_CASE("compare looks at the layers that are named, and where crops overlap",
     const std::string elsewhere = write("elsewhere.exr", {part({1, 0, 8, 6}, {1, 0, 12, 8})});
     check_refusal(run_diptych(folder, {"compare", left, elsewhere}), 2, {"left.exr", "0,0", "elsewhere.exr", "1,0"});
     check_refusal(run_diptych(folder, {"converge", generate_scene(folder, "cornell"), "-o", folder.file("c"), "--methods",
-                                       "cpu:path", "--budget", "1", "--reference", left}),
+                                       "cpu:path", "--spp-max", "1", "--reference", left}),
                   2, {"--reference", "left.exr", "8x6 of its 12x8"});
 
     image_tests::ExrPart albedo = part(display, display), beauty = part(display, display);
