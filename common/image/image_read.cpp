@@ -122,8 +122,11 @@ void read_channels(OIIO::ImageInput& input, int subimage, int begin, int end, Ra
 void check_sizes(const OIIO::ImageSpec& spec, const RawImage& raw, int channels, std::size_t file_bytes) {
     if (spec.depth > 1)
         fail("it is a volume, not a picture");
-    for (const auto& [width, height] : {std::pair(spec.width, spec.height), {raw.display.width, raw.display.height}})
-        if (const std::string reason = size_claim_problem(width, height, channels, file_bytes); !reason.empty())
+    const std::string reasons[] = {
+        size_claim_problem(spec.width, spec.height, channels, file_bytes),
+        size_claim_problem(raw.display.width, raw.display.height, channels, file_bytes, display_grant)};
+    for (const std::string& reason : reasons)
+        if (!reason.empty())
             fail(reason);
 }
 

@@ -10,6 +10,7 @@
 #include "image/atomic_file.h"
 #include "image/layered_image.h"
 #include "image/picture_name.h"
+#include "image/size_claim.h"
 #include "image_fixtures.h"
 #include "scene/environment_load.h"
 
@@ -95,8 +96,20 @@ TEST_CASE("the data window of an EXR is placed in its display window", "[image]"
     CHECK(read(folder, {part}).pixel == std::vector<float>{0, 0, 0});
     part.display = {0, 0, 1 << 20, 1 << 20};
     CHECK(contains(read(folder, {part}).refusal, "1048576x1048576 pixels are more than Diptych reads"));
+    part.display = {0, 0, 4096, 2160};  // as of an empty frame that its program cropped to a pixel
+    CHECK(read(folder, {part}).refusal.empty());
     part.display = {0, 0, 1 << 14, 1 << 13};
     CHECK(contains(read(folder, {part}).refusal, "cannot hold the 16384x8192 pixels that its header claims"));
+}
+
+TEST_CASE("a header may claim what is in proportion to its file", "[image]") {
+    CHECK(size_claim_problem(2048, 2048, 4, 500).empty());
+    CHECK(contains(size_claim_problem(2048, 2049, 4, 500), "500 bytes cannot hold the 2048x2049 pixels"));
+    CHECK(size_claim_problem(16384, 16384, 3, 100'000).empty());
+    CHECK(size_claim_problem(8192, 4320, 3, 500, display_grant).empty());  // an empty frame, cropped to a pixel
+    CHECK(contains(size_claim_problem(131073, 1, 1, 1'000'000), "131072 a side"));
+    CHECK(contains(size_claim_problem(16385, 16384, 1, 1'000'000'000), "268435456 in all"));
+    CHECK(contains(size_claim_problem(0, 8, 3, 500), "no pixels"));
 }
 
 TEST_CASE("layers and parts of an EXR are chosen by name", "[image]") {
