@@ -1,5 +1,6 @@
 # Sourced by ./run and ./test (bash): what the machine lacks, and the build. Everything it says goes to stderr, so that
-# stdout belongs to the program. DIPTYCH_NO_INSTALL=1 turns installing off; something missing is then an error.
+# stdout belongs to the program. DIPTYCH_NO_INSTALL=1 turns installing off; something missing is then an error. CXX names the
+# compiler, by default Debian's c++: CXX=clang++ ./test.
 
 diptych_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 diptych_build="$diptych_root/build/release"
@@ -24,6 +25,17 @@ apt_get() {
 
 has_package() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
 
+# The package of the compiler $1. Debian names such a package after its command, but clang++ is part of clang.
+compiler_package() {
+    local command
+    command="$(basename "$1")"
+    case "$command" in
+        c++) echo g++ ;;
+        clang++*) echo "clang${command#clang++}" ;;
+        *) echo "$command" ;;
+    esac
+}
+
 # missing_packages: the packages of the build that are absent, one a line. A tool counts as present by its command,
 # wherever it came from; a library by its package.
 missing_packages() {
@@ -31,7 +43,7 @@ missing_packages() {
     for entry in cmake:cmake ninja:ninja-build glslangValidator:glslang-tools spirv-val:spirv-tools; do
         command -v "${entry%%:*}" >/dev/null || echo "${entry##*:}"
     done
-    command -v "${CXX:-c++}" >/dev/null || echo g++
+    command -v "${CXX:-c++}" >/dev/null || compiler_package "${CXX:-c++}"
     for entry in libembree-dev libtbb-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libopenimageio-dev \
         libcli11-dev libfmt-dev libspdlog-dev libvulkan-dev libvulkan1 libglfw3-dev libimgui-dev fonts-roboto-unhinted catch2; do
         has_package "$entry" || echo "$entry"
@@ -153,15 +165,24 @@ diptych_setup() {
     ensure_vulkan_device
 }
 
+# Whether the release tree is configured for the compiler that CXX names.
+is_configured() {
+    local compiler
+    [ -e "$diptych_build/build.ninja" ] || return 1
+    [ -n "${CXX:-}" ] || return 0
+    compiler="$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$diptych_build/CMakeCache.txt")"
+    [ "$(basename "$compiler")" = "$(basename "$CXX")" ]
+}
+
 # diptych_compile [TARGET]: configures and builds the release tree; quiet where there is little to do.
 diptych_compile() {
     local -a quiet=(--quiet)
     [ -x "$diptych_build/diptych" ] || quiet=()
     local log="$diptych_build/configure.log"
     mkdir -p "$diptych_build"
-    if [ ! -e "$diptych_build/build.ninja" ]; then
-        say "configuring build/release"
-        (cd "$diptych_root" && cmake --preset release) >"$log" 2>&1 || { cat "$log" >&2; die "configuring failed"; }
+    if ! is_configured; then
+        say "configuring build/release${CXX:+ for $CXX}"
+        (cd "$diptych_root" && cmake --preset release --fresh) >"$log" 2>&1 || { cat "$log" >&2; die "configuring failed"; }
     fi
     [ "${#quiet[@]}" -gt 0 ] || say "building build/release; a few minutes the first time"
     cmake --build "$diptych_build" --target "${1:-all}" -- "${quiet[@]}" >&2 || die "the build failed"

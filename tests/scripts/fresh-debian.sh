@@ -2,6 +2,7 @@
 # Tries the project on a Debian or Ubuntu with nothing installed: a debootstrap chroot that gets a copy of the working tree
 # (tracked and untracked files, no build output) and runs a command in it. Needs root, debootstrap and a network.
 #   tests/scripts/fresh-debian.sh [--suite bookworm] [--mirror URI] [--keep FOLDER] [COMMAND...]     default command: ./test
+# The command starts with an empty environment. With another compiler: fresh-debian.sh --suite trixie env CXX=clang++ ./test.
 # Suites: bookworm, trixie; noble, which needs an Ubuntu mirror and the package ubuntu-keyring. --keep makes or reuses FOLDER as
 # the chroot and leaves it there. Certificate authorities, apt's settings (proxy, checks) and, without --mirror, the mirror are
 # the machine's own. Files the command writes under out/ in the copy lie in FOLDER/root/diptych/out.
@@ -57,6 +58,8 @@ grep -lsE '^ *Acquire::' /etc/apt/apt.conf.d/* /etc/apt/apt.conf 2>/dev/null |
 # Local certificate authorities: Debian's ca-certificates takes them up when it is installed.
 mkdir -p "$chroot_dir/usr/local/share/ca-certificates" "$chroot_dir/root/diptych"
 find /usr/local/share/ca-certificates -name '*.crt' -exec cp -t "$chroot_dir/usr/local/share/ca-certificates" {} + || true
+# Sources that a reused chroot has and the working tree no longer has would be built too.
+find "$chroot_dir/root/diptych" -mindepth 1 -maxdepth 1 ! -name build ! -name out -exec rm -rf {} +
 git -C "$root" ls-files -z --cached --others --exclude-standard |
     (cd "$root" && while IFS= read -r -d '' file; do [ ! -e "$file" ] || printf '%s\0' "$file"; done) |
     tar -C "$root" --null --files-from=- -c | tar -C "$chroot_dir/root/diptych" -x
