@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "error.h"
@@ -21,7 +22,31 @@ std::string glfw_reason() {
     return text == nullptr ? "no reason given" : text;
 }
 
+#ifdef GLFW_PLATFORM  // GLFW 3.4 and later
+
+bool is_absolute_path(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && value[0] == '/';
+}
+
+/// GLFW tries Wayland before X11. Where the environment leads to no compositor, libwayland prints an error about
+/// XDG_RUNTIME_DIR, even if X11 then opens the window. X11 alone is tried there.
+void choose_platform() {
+    const bool may_have_wayland = std::getenv("WAYLAND_SOCKET") != nullptr || is_absolute_path("WAYLAND_DISPLAY") ||
+                                  is_absolute_path("XDG_RUNTIME_DIR");
+    if (!may_have_wayland && glfwPlatformSupported(GLFW_PLATFORM_X11) == GLFW_TRUE) {
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+    }
+}
+
+#else
+
+void choose_platform() {}  // older GLFW is built for one platform
+
+#endif
+
 void start_glfw() {
+    choose_platform();
     if (glfwInit() != GLFW_TRUE) {
         throw NoDevice(
             fmt::format("view: no window could be opened ({}); without a display use `diptych view --headless`, "
