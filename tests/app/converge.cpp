@@ -103,7 +103,8 @@ TEST_CASE("converge measures, plots and writes a page", "[app]") {
             double relmse = 0, mse = 0;
             int count = 0;
             for (const auto& row : rows) {
-                if (row.at("method") == method.at("method") && std::stoi(row.at("spp")) == point.at("spp")) {
+                if (row.at("method") == method.at("method").get<std::string>() &&
+                    std::stoi(row.at("spp")) == point.at("spp").get<int>()) {
                     relmse += std::stod(row.at("relmse")) / 4;
                     mse += std::stod(row.at("mse")) / 4;
                     CHECK(std::stod(row.at("device_seconds")) > 0);
