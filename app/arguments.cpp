@@ -85,7 +85,10 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
     command.add_option("--size", arguments.size,
                        "WIDTHxHEIGHT in pixels, or a height: the camera's aspect gives the width");
     command.add_option("--camera", request.camera, "Camera by name or index; the first by default");
-    command.add_option("--env", request.environment, "Light from infinity: R,G,B radiance, or a .hdr or .exr panorama, of which FILE:LAYER is one layer or part");
+    command.add_option("--clip", request.clip,
+                       "Animation to play, by name or index (see info); by default all, and of two for one node the first");
+    command.add_option("--env", request.environment,
+                       "Light from infinity: R,G,B radiance, or a .hdr or .exr panorama, of which FILE:LAYER is one layer or part");
     command.add_option("--env-scale", request.environment_scale, "Factor on that light")->check(non_negative_number());
     command.add_option("--env-rotate", request.environment_rotation, "Degrees it is turned about +Y")
         ->check(finite_number());
@@ -97,6 +100,8 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
                     "Load the file without this glTF extension, though it requires it; may be repeated")
         ->type_name("NAME")
         ->allow_extra_args(false);
+    command.add_flag("--strict", request.strict,
+                     "Refuse a scene file with faults or parts that cannot be shown, instead of a warning");
     arguments.panel_options.push_back(command.add_flag("--generic", request.settings.generic,
                                                        "Leave nothing out that the scene does not need; same image"));
     add_resampling_options(command, arguments);

@@ -12,6 +12,7 @@
 #include "pack/packed_scene.h"
 #include "render/film.h"
 #include "report.h"
+#include "scene/clips.h"
 #include "scene/default_camera.h"
 #include "scene/pose.h"
 #include "scene_setup.h"
@@ -106,6 +107,14 @@ nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, con
         json["cameras"].push_back(camera.name);
     }
     json["animations"] = scene.animations.size();
+    json["clips"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+        const Animation& clip = scene.animations[i];
+        json["clips"].push_back({{"index", i},
+                                 {"name", clip.name},
+                                 {"seconds", duration(clip)},
+                                 {"channels", clip.channels.size()}});
+    }
     json["animation_seconds"] = duration(scene);
     if (!is_empty(bounds)) {
         json["bounds"] = {{bounds.lo.x, bounds.lo.y, bounds.lo.z}, {bounds.hi.x, bounds.hi.y, bounds.hi.z}};
@@ -127,7 +136,9 @@ nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, con
     json["acceleration_structures"] = costs.acceleration_bytes;
     json["between_passes"] = costs.pass_bytes;
     json["bytes"] = bytes + costs.acceleration_bytes + costs.pass_bytes;
-    json["warnings"] = scene.warnings;
+    Warnings warnings = scene.warnings;
+    warnings.append(clip_warnings(scene));
+    json["warnings"] = warnings.lines();
     return json;
 }
 
@@ -151,6 +162,11 @@ void print_info(const nlohmann::ordered_json& json) {
     fmt::print("  cameras     {}\n", words(json.at("cameras")));
     if (number("animations") > 0) {
         fmt::print("  animations  {}, {} s long\n", number("animations"), json.at("animation_seconds").get<double>());
+        for (const auto& clip : json.at("clips")) {
+            fmt::print("    {:<3} '{}', {} s, {} channels\n", clip.at("index").get<std::size_t>(),
+                       clip.at("name").get<std::string>(), clip.at("seconds").get<double>(),
+                       clip.at("channels").get<std::size_t>());
+        }
     }
     if (json.contains("bounds")) {
         fmt::print("  bounds      {} to {}\n", json["bounds"][0].dump(), json["bounds"][1].dump());
@@ -183,6 +199,7 @@ int run_info(InfoOptions options) {
     request.settings.standard_error = options.layers;
     request.settings.first_hit_layers = options.layers;
     const Scene scene = prepare_scene(options.arguments);
+    report_clips(scene, request);
     const nlohmann::ordered_json json = gather(scene, pack_scene(scene, request.settings), request);
     if (options.json) {
         print_json(json);

@@ -130,6 +130,7 @@ int run_render(RenderOptions options) {
     const std::unique_ptr<LiveView> live = options.live.empty() ? nullptr : std::make_unique<LiveView>(options.live);
     const Scene scene = prepare_scene(options.arguments);
     if (options.arguments.request.frames > 0) {
+        report_clips(scene, options.arguments.request);
         return render_sequence(scene, options.arguments.request, options.json, live.get());
     }
     return run_still(options, scene, live.get());

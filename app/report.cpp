@@ -58,6 +58,10 @@ void report_warnings(const std::vector<std::string>& messages) {
     }
 }
 
+void report_warnings(const Warnings& warnings) {
+    report_warnings(warnings.lines());
+}
+
 void print_json(const nlohmann::ordered_json& json) {
     fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     std::fflush(stdout);

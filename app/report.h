@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/warnings.h"
+
 namespace diptych::app {
 
 /// "diptych 0.1.0 (commit …)".
@@ -19,6 +21,7 @@ void report_warning(const std::string& message);
 
 /// Each distinct warning once.
 void report_warnings(const std::vector<std::string>& messages);
+void report_warnings(const Warnings& warnings);
 
 /// One line on stdout. Numbers that JSON cannot hold become null.
 void print_json(const nlohmann::ordered_json& json);

@@ -11,8 +11,10 @@
 #include <sstream>
 
 #include "error.h"
+#include "image/near_miss.h"
 #include "pack/features.h"
 #include "report.h"
+#include "scene/clips.h"
 #include "scene/default_camera.h"
 #include "scene/environment_load.h"
 #include "scene/gltf_import.h"
@@ -37,7 +39,7 @@ std::optional<glm::vec3> parse_color(const std::string& text) {
     return color;
 }
 
-Environment requested_environment(const std::string& text, std::vector<std::string>& warnings) {
+Environment requested_environment(const std::string& text, Warnings& warnings) {
     const std::optional<glm::vec3> color = parse_color(text);
     if (!color) {
         const bool like_numbers = text.find_first_not_of("0123456789+-.,eE ") == std::string::npos;
@@ -48,7 +50,7 @@ Environment requested_environment(const std::string& text, std::vector<std::stri
         const Environment environment = load_environment(text, &lines);
         std::istringstream stream(lines);
         for (std::string line; std::getline(stream, line);) {
-            warnings.push_back(line);
+            warnings.add(line);
         }
         return environment;
     }
@@ -68,7 +70,7 @@ void find_environment(Scene& scene, const RenderRequest& request) {
         scene.environment = requested_environment(request.environment, scene.warnings);
     } else if (!has_light(scene) && !request.sun) {
         scene.environment = neutral_sky();
-        scene.warnings.push_back(fmt::format("{}: the scene has no light: lit by a neutral sky", scene.name));
+        scene.warnings.add("the scene has no light: lit by a neutral sky", scene.name);
     }
 }
 
@@ -80,6 +82,7 @@ std::string camera_list(const Scene& scene) {
     return list;
 }
 
+/// The camera of that very name, else of that index.
 int find_camera(const Scene& scene, const std::string& wanted) {
     const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                     [&](const Camera& camera) { return camera.name == wanted; });
@@ -90,18 +93,33 @@ int find_camera(const Scene& scene, const std::string& wanted) {
     const char* end = wanted.data() + wanted.size();
     const auto [stop, failure] = std::from_chars(wanted.data(), end, index);
     if (failure != std::errc() || stop != end || index >= scene.cameras.size()) {
-        throw Error(fmt::format("{}: no camera '{}'; there {}", scene.name, wanted,
-                                scene.cameras.empty() ? "are none" : "are " + camera_list(scene)));
+        std::vector<std::string> names;
+        for (const Camera& camera : scene.cameras) {
+            names.push_back(camera.name);
+        }
+        throw Error(fmt::format("{}: no camera '{}'{}; there are {}", scene.name, wanted, did_you_mean(wanted, names),
+                                names.empty() ? "none" : camera_list(scene)));
     }
     return static_cast<int>(index);
 }
 
 void choose_camera(Scene& scene, RenderRequest& request) {
+    if (scene.cameras.empty() && (request.camera.empty() || request.camera == "0")) {
+        scene.cameras.push_back(frame_scene(scene));
+        if (!request.viewpoint.eye) {
+            scene.warnings.add("the scene has no camera: seen by one that frames it", scene.name);
+        }
+    }
     if (!request.camera.empty()) {
         request.settings.camera = find_camera(scene, request.camera);
-    } else if (scene.cameras.empty()) {
-        scene.cameras.push_back(frame_scene(scene));
-        scene.warnings.push_back(fmt::format("{}: the scene has no camera: seen by one that frames it", scene.name));
+    }
+}
+
+void choose_clips(Scene& scene, const RenderRequest& request) {
+    if (request.clip.empty()) {
+        play_all_clips(scene);
+    } else {
+        play_clip(scene, find_clip(scene, request.clip));
     }
 }
 
@@ -122,10 +140,11 @@ bool has_light(const Scene& scene) {
 }
 
 Scene load_requested(RenderRequest& request) {
-    Scene scene = load_gltf(request.scene, {request.ignored_extensions});
+    Scene scene = load_gltf(request.scene, {request.ignored_extensions, request.strict});
     if (scene.name.empty()) {
         scene.name = request.scene;
     }
+    choose_clips(scene, request);
     find_environment(scene, request);
     choose_camera(scene, request);
     return scene;
@@ -166,6 +185,14 @@ Scene prepare_scene(RenderArguments& arguments) {
     resolve_size(arguments, scene.cameras[static_cast<std::size_t>(request.settings.camera)]);
     report_warnings(scene.warnings);
     return scene;
+}
+
+void report_clips(const Scene& scene, const RenderRequest& request) {
+    const Warnings warnings = clip_warnings(scene);
+    if (request.strict && !warnings.empty()) {
+        throw Error(fmt::format("{}: {}", scene.name, warnings.lines().front()));
+    }
+    report_warnings(warnings);
 }
 
 }  // namespace diptych::app

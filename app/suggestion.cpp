@@ -2,44 +2,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <numeric>
 #include <vector>
+
+#include "image/near_miss.h"
 
 namespace diptych::app {
 
 namespace {
 
-/// Levenshtein's distance.
-std::size_t distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row.back();
-}
-
-std::string nearest(const std::string& word, const std::vector<std::string>& known) {
-    std::string best;
-    std::size_t least = 1 + word.size() / 3;
-    for (const std::string& candidate : known) {
-        const std::size_t d = distance(word, candidate);
-        if (d <= least && (best.empty() || d < least)) {
-            best = candidate;
-            least = d;
-        }
-    }
-    return best;
-}
-
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const std::string& help) {
-    const std::string guess = nearest(word, known);
+std::string guess_or_help(const std::string& word, const std::vector<std::string>& known, const std::string& help) {
+    const std::string guess = nearest_word(word, known);
     return guess.empty() ? "see " + help : "did you mean " + guess + "?";
 }
 
@@ -55,7 +27,7 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
     }
     const std::string name = argv[1];
     if (std::find(commands.begin(), commands.end(), name) == commands.end()) {
-        return did_you_mean(name, commands, "diptych --help");
+        return guess_or_help(name, commands, "diptych --help");
     }
     std::vector<std::string> options;
     for (const CLI::Option* option : app.get_subcommand(name)->get_options()) {
@@ -67,7 +39,7 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
     for (int i = 2; i < argc; ++i) {
         const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
         if (word.rfind("--", 0) == 0 && std::find(options.begin(), options.end(), word) == options.end()) {
-            return did_you_mean(word, options, help);
+            return guess_or_help(word, options, help);
         }
     }
     return "see " + help;

@@ -140,6 +140,9 @@ int run_verify(VerifyOptions options) {
         report_warning(
             fmt::format("{}: its animations are not played, it is shown at rest: give --frame or --start", scene.name));
     }
+    if (!options.frames.empty()) {
+        report_clips(scene, options.arguments.request);
+    }
     const std::uint32_t seed =
         options.fresh_seeds && !options.seed_given ? static_cast<std::uint32_t>(std::random_device{}()) : options.seed;
     std::optional<SuiteResult> suite;

@@ -127,6 +127,7 @@ int run_view(ViewOptions options) {
     }
     LoadedScene scene = load_scene(options.arguments.request, 1);
     report_warnings(scene.scene->warnings);
+    report_clips(*scene.scene, scene.request);
     if (!options.headless) {
         return show(options, panel, std::move(scene));
     }

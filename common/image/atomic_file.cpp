@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "error.h"
+#include "image/near_miss.h"
 
 namespace diptych {
 namespace {
@@ -87,7 +88,7 @@ void check_file_can_be_created(const fs::path& path) {
         fail(path, "it is a folder");
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::exists(folder, ignored))
-        fail(path, "the folder '" + folder.string() + "' does not exist");
+        fail(path, "the folder '" + folder.string() + "' does not exist" + did_you_mean_file(folder));
     if (!fs::is_directory(folder, ignored))
         fail(path, "'" + folder.string() + "' is not a folder");
     const TemporaryFile probe(path);

@@ -5,6 +5,7 @@
 #include "error.h"
 #include "pack/features.h"
 #include "pack/pack_parts.h"
+#include "scene/pose.h"
 
 namespace diptych {
 namespace {
@@ -106,7 +107,7 @@ PackedScene pack_scene(const Scene& scene, const RenderSettings& settings) {
     packed.features = needed_features(scene, settings);
     pack_settings(settings, packed.constants);
     packed.origin = rebase_origin(scene, settings);
-    packed.moves = !scene.animations.empty();
+    packed.moves = moves(scene);
     packed.keeps_previous = settings.moves;
     pack_materials(scene, packed);
     pack_meshes(scene, packed);

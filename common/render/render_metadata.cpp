@@ -137,6 +137,9 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
     }
     add_option(command, "--spp", spp);
     add_picture_options(command, request);
+    if (!request.clip.empty()) {
+        add_option(command, "--clip", request.clip);
+    }
     if (request.frames > 0) {
         add_option(command, "--frames", request.frames);
         add_option(command, "--fps", request.fps);
@@ -197,6 +200,7 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("seed", settings.seed);
     add("brdf", name_of(settings.brdf));
     add("normal_maps", name_of(settings.normal_maps));
+    add("clip", request.clip);
     add("camera", request.camera);
     add("camera_index", settings.camera);
     add("environment", request.environment);

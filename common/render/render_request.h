@@ -15,6 +15,8 @@ namespace diptych {
 struct RenderRequest {
     std::string scene;                            // file
     std::vector<std::string> ignored_extensions;  // required by the file, lacking here, and done without
+    bool strict = false;                          // refuse a file that loads with a warning
+    std::string clip;                             // name or index of the animation to play; empty is all
     std::string output;                           // file
     std::string backend = "cpu";                  // cpu, vulkan or oracle
     std::string oracle_mode = "mis";              // oracle: mis, bsdf, hemisphere or area

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/warnings.h"
+
 namespace diptych {
 
 /// A local frame that moves, or that something moving hangs in. A node with a matrix is never itself a target.
@@ -28,26 +30,29 @@ enum class AnimatedProperty { translation, rotation, scale, emissive_factor, emi
 /// How many numbers a value of the property has.
 int component_count(AnimatedProperty property);
 
-/// One property over time. `times` rise strictly, in seconds from 0. `values` holds component_count numbers a key, and
-/// with cubic splines three such groups: in-tangent, value, out-tangent (per second).
+/// One property over time. `times` never fall, in seconds; two equal ones are a jump. `values` holds component_count
+/// numbers a key, and with cubic splines three such groups: in-tangent, value, out-tangent (per second).
 struct Channel {
     AnimatedProperty property = AnimatedProperty::translation;
     int target = -1;  // index into the scene's nodes, materials or lights, as the property says
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;
     std::vector<float> values;
+    bool plays = true;  // false: another clip was chosen, or another one moves the same target
 };
 
+/// A clip.
 struct Animation {
     std::string name;
-    std::vector<Channel> channels;
+    std::vector<Channel> channels;  // empty where the file's channels move nothing that can be moved
+    Warnings warnings{};            // of interest where the clip is played
 };
 
 /// The property's value, in the first component_count components; before the first key that key's, after the last that
 /// one's. glTF 2.0, appendix C; rotations go the short way (slerp) and come out unit.
 glm::dvec4 sample_channel(const Channel& channel, double seconds);
 
-/// The last key's time.
+/// The last key's time, or 0 where that is earlier.
 double duration(const Animation& animation);
 
 }  // namespace diptych

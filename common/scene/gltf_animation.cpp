@@ -24,9 +24,9 @@ Animation read_animation(Document& document, const Json& source, std::size_t ind
     const Json& channels = source["channels"];
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const std::string name = object + "." + label("channels", i);
-        if (std::optional<Channel> channel = read_channel(document, source, channels[i], name)) {
+        if (std::optional<Channel> channel = read_channel(document, source, channels[i], name, animation.warnings)) {
             if (!targets.insert({channel->property, channel->target}).second) {
-                warn(document, name, "moves what an earlier channel moves; the later one wins");
+                warn(document, animation.warnings, name, "moves what an earlier channel moves; the later one wins");
             }
             animation.channels.push_back(*std::move(channel));
         }
@@ -68,13 +68,13 @@ Motion read_motion(Document& document, const NodeTree& tree, Scene& scene) {
         }
     }
     std::vector<bool> kept = motion.moving;
-    for (auto node = tree.visible.rbegin(); node != tree.visible.rend(); ++node) {
+    for (auto node = tree.carrying.rbegin(); node != tree.carrying.rend(); ++node) {
         const int parent = tree.nodes[static_cast<std::size_t>(*node)].parent;
         if (parent != none && kept[static_cast<std::size_t>(*node)]) {
             kept[static_cast<std::size_t>(parent)] = true;
         }
     }
-    for (const int index : tree.visible) {
+    for (const int index : tree.carrying) {
         const auto i = static_cast<std::size_t>(index);
         const int parent = tree.nodes[i].parent;
         if (parent != none && motion.moving[static_cast<std::size_t>(parent)]) {
@@ -92,7 +92,7 @@ Motion read_motion(Document& document, const NodeTree& tree, Scene& scene) {
 
 void attach_motion(Document& document, const Motion& motion, const std::vector<int>& light_sources, Scene& scene) {
     for (const Animation& source : motion.animations) {
-        Animation animation{source.name, {}};
+        Animation animation{source.name, {}, source.warnings};
         const auto add = [&](const Channel& channel, int target) {
             animation.channels.push_back(channel);
             animation.channels.back().target = target;
@@ -119,9 +119,7 @@ void attach_motion(Document& document, const Motion& motion, const std::vector<i
                 add(channel, channel.target);
             }
         }
-        if (!animation.channels.empty()) {
-            scene.animations.push_back(std::move(animation));
-        }
+        scene.animations.push_back(std::move(animation));
     }
 }
 

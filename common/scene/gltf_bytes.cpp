@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "error.h"
+#include "image/near_miss.h"
 
 namespace diptych::gltf {
 namespace {
@@ -63,7 +64,7 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) {
-        throw Error("no such file");
+        throw Error("no such file" + did_you_mean_file(path));
     }
     if (std::filesystem::is_directory(status)) {
         throw Error("is a folder, not a file");

@@ -1,7 +1,9 @@
 #include "scene/gltf_channel.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 
 #include "scene/gltf_accessor.h"
@@ -119,7 +121,9 @@ std::optional<Target> read_target(Document& document, const Json& channel, const
     return text == "pointer" ? pointer_target(document, *target, object) : node_target(document, *target, text, object);
 }
 
-Interpolation read_interpolation(const Document& document, const Json& sampler, const std::string& object) {
+// What is unknown is taken for what the number of values allows: splines have three a key.
+Interpolation read_interpolation(const Document& document, const Json& sampler, bool three_values_a_key,
+                                 const std::string& object, Warnings& warnings) {
     const Json* value = member(sampler, "interpolation");
     if (value == nullptr || *value == "LINEAR") {
         return Interpolation::linear;
@@ -130,55 +134,77 @@ Interpolation read_interpolation(const Document& document, const Json& sampler, 
     if (*value == "CUBICSPLINE") {
         return Interpolation::cubic_spline;
     }
-    fail(document, object + ".interpolation", "is " + value->dump() + ", not STEP, LINEAR or CUBICSPLINE");
+    const Interpolation taken = three_values_a_key ? Interpolation::cubic_spline : Interpolation::linear;
+    warn(document, warnings, object + ".interpolation",
+         std::string("is unknown; taken as ") + (three_values_a_key ? "CUBICSPLINE" : "LINEAR"),
+         "it is " + value->dump());
+    return taken;
 }
 
 std::vector<float> read_times(const Document& document, int accessor, const std::string& object) {
     if (find_accessor(document, accessor, object).componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
         fail(document, object, "holds times that are no floats");
     }
-    std::vector<float> times = read_numbers(document, accessor, 1, object);
-    if (times.empty()) {
-        fail(document, object, "has no keys");
-    }
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        if (!std::isfinite(times[i]) || times[i] < 0 || (i > 0 && times[i] <= times[i - 1])) {
-            fail(document, object,
-                 "time " + std::to_string(i) + " is " + std::to_string(times[i]) + "; times must rise from 0");
-        }
-    }
-    return times;
+    return read_numbers(document, accessor, 1, object);
 }
 
-std::vector<float> read_values(const Document& document, int accessor, const Channel& channel,
-                               const std::string& object) {
-    const auto components = static_cast<std::size_t>(component_count(channel.property));
-    std::vector<float> values = read_numbers(document, accessor, components, object);
+// Times that are finite, but do not rise from 0: they are put in order. Equal ones keep theirs, and are a jump.
+void repair_times(const Document& document, Channel& channel, const std::string& object, Warnings& warnings) {
+    std::vector<float>& times = channel.times;
+    const auto detail = [&](std::size_t i) { return "time " + std::to_string(i) + " is " + std::to_string(times[i]); };
+    const auto early = std::find_if(times.begin(), times.end(), [](float time) { return time < 0; });
+    if (early != times.end()) {
+        warn(document, warnings, object, "has keys before 0 s; they are played from 0 s on",
+             detail(static_cast<std::size_t>(early - times.begin())));
+    }
+    const auto repeated = std::adjacent_find(times.begin(), times.end());
+    if (repeated != times.end()) {
+        warn(document, warnings, object, "has two keys at one time; the value jumps there",
+             detail(static_cast<std::size_t>(repeated - times.begin()) + 1));
+    }
+    const auto fallen = std::is_sorted_until(times.begin(), times.end());
+    if (fallen == times.end()) {
+        return;
+    }
+    warn(document, warnings, object, "has keys that are not in order of time; they are sorted",
+         detail(static_cast<std::size_t>(fallen - times.begin())));
+    std::vector<std::size_t> order(times.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+    const Channel unsorted = channel;
+    const std::size_t group = channel.values.size() / times.size();
+    for (std::size_t key = 0; key < order.size(); ++key) {
+        times[key] = unsorted.times[order[key]];
+        std::copy_n(&unsorted.values[order[key] * group], group, &channel.values[key * group]);
+    }
+}
+
+// Why the keyframes cannot be played at all; empty where they can.
+std::string problem_of(const Channel& channel) {
+    const auto finite = [](float x) { return std::isfinite(x); };
+    if (channel.times.empty()) {
+        return "has no keys";
+    }
+    if (!std::all_of(channel.times.begin(), channel.times.end(), finite)) {
+        return "has a time that is not finite";
+    }
+    if (!std::all_of(channel.values.begin(), channel.values.end(), finite)) {
+        return "has a value that is not finite";
+    }
     const bool spline = channel.interpolation == Interpolation::cubic_spline;
-    const std::size_t groups = channel.times.size() * (spline ? 3 : 1);
-    if (values.size() != groups * components) {
-        fail(document, object,
-             "has " + std::to_string(values.size() / components) + " values where " + std::to_string(groups) +
-                 " are needed");
-    }
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!std::isfinite(values[i])) {
-            fail(document, object, "value " + std::to_string(i / components) + " is not finite");
-        }
-    }
     for (std::size_t key = 0; key < channel.times.size() && channel.property == AnimatedProperty::rotation; ++key) {
-        const float* q = &values[4 * (spline ? 3 * key + 1 : key)];
+        const float* q = &channel.values[4 * (spline ? 3 * key + 1 : key)];
         if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0) {
-            fail(document, object, "value " + std::to_string(key) + " is no rotation");
+            return "has a value that is no rotation";
         }
     }
-    return values;
+    return "";
 }
 
 }  // namespace
 
 std::optional<Channel> read_channel(Document& document, const Json& animation, const Json& channel,
-                                    const std::string& object) {
+                                    const std::string& object, Warnings& warnings) {
     const Json* samplers = member(animation, "samplers");
     const int index =
         index_member(document, channel, "sampler", samplers != nullptr ? samplers->size() : 0, "samplers", object);
@@ -195,11 +221,25 @@ std::optional<Channel> read_channel(Document& document, const Json& animation, c
     Channel out;
     out.property = target->property;
     out.target = target->index;
-    out.interpolation = read_interpolation(document, sampler, name);
     out.times =
         read_times(document, index_member(document, sampler, "input", accessors, "accessors", name), name + ".input");
-    out.values = read_values(document, index_member(document, sampler, "output", accessors, "accessors", name), out,
-                             name + ".output");
+    const auto components = static_cast<std::size_t>(component_count(out.property));
+    out.values = read_numbers(document, index_member(document, sampler, "output", accessors, "accessors", name),
+                              components, name + ".output");
+    const std::size_t keys = out.times.size();
+    out.interpolation =
+        read_interpolation(document, sampler, out.values.size() == 3 * keys * components, name, warnings);
+    const std::size_t needed = keys * (out.interpolation == Interpolation::cubic_spline ? 3 : 1);
+    if (out.values.size() != needed * components) {
+        fail(document, name + ".output",
+             "has " + std::to_string(out.values.size() / components) + " values where " + std::to_string(needed) +
+                 " are needed");
+    }
+    if (const std::string problem = problem_of(out); !problem.empty()) {
+        warn(document, warnings, name, problem + "; left out");
+        return std::nullopt;
+    }
+    repair_times(document, out, name + ".input", warnings);
     return out;
 }
 

@@ -16,9 +16,10 @@ using Json = nlohmann::json;
 // Far deeper than any glTF, and shallow enough for a parser that recurses.
 constexpr int max_json_depth = 128;
 
-constexpr std::array<const char*, 8> supported_extensions{
-    "KHR_animation_pointer",  "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_unlit", "KHR_mesh_quantization",           "KHR_texture_transform"};
+constexpr std::array<const char*, 9> supported_extensions{
+    "EXT_texture_webp",  "KHR_animation_pointer",  "KHR_lights_punctual", "KHR_materials_emissive_strength",
+    "KHR_materials_ior", "KHR_materials_specular", "KHR_materials_unlit", "KHR_mesh_quantization",
+    "KHR_texture_transform"};
 
 template <class List>
 bool contains(const List& list, const std::string& word) {
@@ -181,10 +182,25 @@ std::vector<std::string> strings_of(const Json& root, const char* key) {
     return strings;
 }
 
+// Whether every texture of KHR_texture_basisu, which is not supported, has another image to fall back on.
+bool textures_have_fallbacks(const Json& root) {
+    const auto textures = root.find("textures");
+    return textures == root.end() || !textures->is_array() ||
+           std::all_of(textures->begin(), textures->end(), [](const Json& texture) {
+               const Json extensions = texture.is_object() ? texture.value("extensions", Json()) : Json();
+               return !extensions.is_object() || !extensions.contains("KHR_texture_basisu") ||
+                      texture.contains("source") || extensions.contains("EXT_texture_webp");
+           });
+}
+
 void check_extensions(Document& document, const Json& root, const std::vector<std::string>& ignored) {
     const std::vector<std::string> required = strings_of(root, "extensionsRequired");
     for (const std::string& extension : required) {
         if (contains(supported_extensions, extension)) {
+            continue;
+        }
+        if (extension == "KHR_texture_basisu" && !contains(ignored, extension) && textures_have_fallbacks(root)) {
+            warn(document, "extensionsRequired", extension + " is not supported; its textures' other images are used");
             continue;
         }
         if (!contains(ignored, extension)) {
@@ -192,7 +208,7 @@ void check_extensions(Document& document, const Json& root, const std::vector<st
                  "needs " + extension + ", which is not supported (--ignore-extension " + extension +
                      " does without it)");
         }
-        warn(document, "extensionsRequired", extension + " is ignored, as asked for");
+        document.warnings.add(extension + " is ignored, as asked for", "extensionsRequired");
     }
     for (const std::string& extension : strings_of(root, "extensionsUsed")) {
         if (!contains(supported_extensions, extension) && !contains(required, extension)) {
@@ -226,11 +242,23 @@ void fail(const Document& document, const std::string& object, const std::string
     throw Error(one_line(document.file + ": " + object + ": " + reason));
 }
 
-void warn(Document& document, const std::string& object, const std::string& reason) {
-    std::string line = one_line(object + ": " + reason);
-    if (document.warned.insert(line).second) {
-        document.warnings.push_back(std::move(line));
+void warn(const Document& document, Warnings& warnings, const std::string& object, const std::string& kind,
+          const std::string& detail) {
+    if (document.strict) {
+        fail(document, object, kind + (detail.empty() ? "" : ": " + detail));
     }
+    warnings.add(one_line(kind), one_line(object), one_line(detail));
+}
+
+void warn(Document& document, const std::string& object, const std::string& kind, const std::string& detail) {
+    warn(document, document.warnings, object, kind, detail);
+}
+
+void warn_amount(Document& document, const std::string& object, std::size_t amount, const std::string& kind) {
+    if (document.strict && amount > 0) {
+        fail(document, object, std::to_string(amount) + " " + kind);
+    }
+    document.warnings.add_amount(amount, kind, object);
 }
 
 std::string label(const char* table, std::size_t index, const std::string& name) {
@@ -242,8 +270,9 @@ bool declares_extension(const Document& document, const std::string& name) {
     return contains(document.model.extensionsUsed, name) || contains(document.model.extensionsRequired, name);
 }
 
-Document read_document(const std::filesystem::path& path, const std::vector<std::string>& ignored_extensions) {
+Document read_document(const std::filesystem::path& path, const GltfOptions& options) {
     Document document;
+    document.strict = options.strict;
     document.file = path.string();
     document.folder = path.parent_path();
     Bytes bytes;
@@ -263,7 +292,7 @@ Document read_document(const std::filesystem::path& path, const std::vector<std:
     }
     Json root = parse_json(document, chunks.json);
     check_version(document, root);
-    check_extensions(document, root, ignored_extensions);
+    check_extensions(document, root, options.ignored_extensions);
     const Json buffers = take_array(root, "buffers");
     const Json images = take_array(root, "images");
     document.animations = take_array(root, "animations");

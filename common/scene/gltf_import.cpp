@@ -141,7 +141,7 @@ Scene import_document(Document& document) {
 
 Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options) {
     try {
-        Document document = read_document(path, options.ignored_extensions);
+        Document document = read_document(path, options);
         return import_document(document);
     } catch (const Error&) {
         throw;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "scene/gltf_image.h"
 
@@ -38,6 +40,23 @@ Wrap wrap_mode(Document& document, int mode, const std::string& object) {
     }
 }
 
+// The image of a texture's extension, or `none`.
+int image_of(const tinygltf::Texture& texture, const char* extension) {
+    const auto found = texture.extensions.find(extension);
+    const bool named = found != texture.extensions.end() && found->second.Get("source").IsInt();
+    return named ? found->second.Get("source").GetNumberAsInt() : none;
+}
+
+// The image that a texture reads, or `none`: WebP where this program can decode it, else the core image, else what an
+// extension names, so that a warning can say what is lacking.
+int image_of(const tinygltf::Texture& texture) {
+    const int webp = image_of(texture, "EXT_texture_webp");
+    if (texture.source != none) {
+        return webp != none && reads_webp() ? webp : texture.source;
+    }
+    return webp != none ? webp : image_of(texture, "KHR_texture_basisu");
+}
+
 int import_image(Context& context, int index, const std::string& object) {
     if (index < 0 || static_cast<std::size_t>(index) >= context.document.images.size()) {
         fail(context.document, object, "there is no images[" + std::to_string(index) + "]");
@@ -61,13 +80,14 @@ int import_texture(Context& context, int index, const std::string& slot) {
     }
     const tinygltf::Texture& source = document.model.textures[static_cast<std::size_t>(index)];
     const std::string object = label("textures", static_cast<std::size_t>(index), source.name);
-    if (source.source == none) {
+    const int image = image_of(source);
+    if (image == none) {
         warn(document, object, "has no image; it is left out");
         return context.tables.textures[index] = none;
     }
     Texture texture;
     texture.name = source.name;
-    texture.image = import_image(context, source.source, object + ".source");
+    texture.image = import_image(context, image, object + ".source");
     if (source.sampler != none) {
         if (source.sampler < 0 || static_cast<std::size_t>(source.sampler) >= document.model.samplers.size()) {
             fail(document, object, "there is no samplers[" + std::to_string(source.sampler) + "]");
@@ -240,6 +260,44 @@ Material import_material(Context& context, const tinygltf::Material& source, con
     return material;
 }
 
+// A colour from an image that cannot be had shows the checker that stands for it. Other values are left out: a checker
+// is no direction, and its roughness would look like a choice.
+void settle_missing_images(Context& context, const std::vector<std::string>& problems) {
+    Document& document = context.document;
+    const auto image_label = [&](std::size_t image) {
+        const int index = context.tables.wanted_images[image];
+        return label("images", static_cast<std::size_t>(index), document.images[static_cast<std::size_t>(index)].name);
+    };
+    const auto missing = [&](const TextureSlot& slot) -> std::optional<std::size_t> {
+        if (slot.texture == none) {
+            return std::nullopt;
+        }
+        const int image = context.scene.textures[static_cast<std::size_t>(slot.texture)].image;
+        const auto i = static_cast<std::size_t>(image);
+        return problems[i].empty() ? std::nullopt : std::optional(i);
+    };
+    for (std::size_t i = 0; i < context.scene.materials.size(); ++i) {
+        Material& material = context.scene.materials[i];
+        for (const TextureSlot* slot :
+             {&material.base_color_texture, &material.emission_texture, &material.specular_color_texture}) {
+            if (const auto image = missing(*slot)) {
+                warn(document, image_label(*image), "cannot be read; shown as a magenta-black checker",
+                     problems[*image]);
+            }
+        }
+        const std::string object = label("materials", i, material.name);
+        for (const auto& [slot, name] : {std::pair(&material.metallic_roughness_texture, ".metallicRoughnessTexture"),
+                                         {&material.normal_texture, ".normalTexture"},
+                                         {&material.specular_texture, ".specularTexture"}}) {
+            if (const auto image = missing(*slot)) {
+                warn(document, object + name, "is left out, because its image cannot be read",
+                     image_label(*image) + ": " + problems[*image]);
+                *slot = {};
+            }
+        }
+    }
+}
+
 }  // namespace
 
 MovingEmission read_emission(Document& document, const tinygltf::Material& source, const std::string& object) {
@@ -262,7 +320,9 @@ void import_materials(Document& document, Scene& scene) {
         const tinygltf::Material& source = document.model.materials[i];
         scene.materials.push_back(import_material(context, source, label("materials", i, source.name)));
     }
-    scene.images = decode_images(document, context.tables.wanted_images);
+    DecodedImages decoded = decode_images(document, context.tables.wanted_images);
+    scene.images = std::move(decoded.images);
+    settle_missing_images(context, decoded.problems);
 }
 
 }  // namespace diptych::gltf

@@ -1,7 +1,9 @@
 #include "scene/gltf_nodes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include "scene/pose.h"
 
@@ -106,6 +108,16 @@ std::vector<int> descend(const Document& document, const std::vector<int>& roots
     return order;
 }
 
+// Whether one of the node's ancestors is marked. `parents` holds no circle.
+bool hangs_in(const std::vector<bool>& marked, const std::vector<int>& parents, int node) {
+    int ancestor = parents[static_cast<std::size_t>(node)];
+    while (ancestor != none && !marked[static_cast<std::size_t>(ancestor)]) {
+        ancestor = parents[static_cast<std::size_t>(ancestor)];
+    }
+    return ancestor != none;
+}
+
+// The topmost nodes of the scene. One that has a parent is no root, but some exporters list all nodes of a scene.
 std::vector<int> scene_roots(Document& document, const std::vector<int>& parents, const std::vector<int>& all_roots) {
     const tinygltf::Model& model = document.model;
     if (model.scenes.empty()) {
@@ -121,16 +133,18 @@ std::vector<int> scene_roots(Document& document, const std::vector<int>& parents
     std::vector<int> roots;
     for (const int node : model.scenes[index].nodes) {
         check_node(document, node, object);
-        if (parents[static_cast<std::size_t>(node)] != none) {
-            fail(document, object, "nodes[" + std::to_string(node) + "] is not a root, it has a parent");
-        }
         if (seen[static_cast<std::size_t>(node)]) {
-            warn(document, object, "names nodes[" + std::to_string(node) + "] twice");
+            warn(document, node_label(document, node), "is listed twice in " + object);
             continue;
+        }
+        if (parents[static_cast<std::size_t>(node)] != none) {
+            warn(document, node_label(document, node),
+                 "is listed in " + object + ", but has a parent; it is drawn once, in its place under that parent");
         }
         seen[static_cast<std::size_t>(node)] = true;
         roots.push_back(node);
     }
+    std::erase_if(roots, [&](int node) { return hangs_in(seen, parents, node); });
     return roots;
 }
 
@@ -152,7 +166,8 @@ NodeTree read_nodes(Document& document) {
     tree.nodes.resize(parents.size());
     tree.to_world.assign(parents.size(), glm::dmat4(1));
     std::vector<bool> reached(parents.size(), false);
-    for (const int node : descend(document, roots)) {
+    const std::vector<int> order = descend(document, roots);
+    for (const int node : order) {
         const auto i = static_cast<std::size_t>(node);
         const std::string object = node_label(document, node);
         reached[i] = true;
@@ -173,6 +188,15 @@ NodeTree read_nodes(Document& document) {
         }
     }
     tree.visible = descend(document, scene_roots(document, parents, roots));
+    std::vector<bool> carries(parents.size(), false);
+    for (const int node : tree.visible) {
+        for (int up = node; up != none && !carries[static_cast<std::size_t>(up)];
+             up = parents[static_cast<std::size_t>(up)]) {
+            carries[static_cast<std::size_t>(up)] = true;
+        }
+    }
+    std::copy_if(order.begin(), order.end(), std::back_inserter(tree.carrying),
+                 [&](int node) { return carries[static_cast<std::size_t>(node)]; });
     return tree;
 }
 

@@ -20,12 +20,6 @@ bool is_finite(const Vector& v) {
     return true;
 }
 
-void warn_count(Document& document, const std::string& object, std::size_t count, const std::string& what) {
-    if (count > 0) {
-        warn(document, object, std::to_string(count) + " " + what);
-    }
-}
-
 /// Exactly: two vertices in one place, or all on a line.
 bool has_no_area(const std::vector<glm::vec3>& positions, const glm::uvec3& t) {
     const glm::dvec3 a(positions[t.x]);
@@ -41,12 +35,12 @@ void drop_bad_triangles(Document& document, Primitive& primitive, const std::str
     const auto kept = std::remove_if(primitive.triangles.begin(), primitive.triangles.end(), bad);
     const auto dropped = static_cast<std::size_t>(primitive.triangles.end() - kept);
     primitive.triangles.erase(kept, primitive.triangles.end());
-    warn_count(document, object, dropped, "triangles have a vertex that is not finite; dropped");
+    warn_amount(document, object, dropped, "triangles have a vertex that is not finite; dropped");
     const auto flat = std::remove_if(primitive.triangles.begin(), primitive.triangles.end(),
                                      [&](const glm::uvec3& t) { return has_no_area(positions, t); });
     const auto flat_count = static_cast<std::size_t>(primitive.triangles.end() - flat);
     primitive.triangles.erase(flat, primitive.triangles.end());
-    warn_count(document, object, flat_count, "triangles have no area; dropped");
+    warn_amount(document, object, flat_count, "triangles have no area; dropped");
     if (good != positions.end()) {
         std::replace_if(
             positions.begin(), positions.end(), [](glm::vec3 p) { return !is_finite(p); }, glm::vec3(*good));
@@ -86,7 +80,7 @@ void clean_normals(Document& document, Primitive& primitive, const std::string& 
     if (bad.empty()) {
         return;
     }
-    warn_count(document, object, bad.size(), "normals have no direction; replaced by their faces'");
+    warn_amount(document, object, bad.size(), "normals have no direction; replaced by their faces'");
     const std::vector<glm::dvec3> sums = face_normal_sums(primitive);
     for (const std::size_t i : bad) {
         const double length = glm::length(sums[i]);
@@ -104,7 +98,7 @@ void clean_tangents(Document& document, Primitive& primitive, const std::string&
         }
         primitive.tangents[i] = glm::vec4(tangent, primitive.tangents[i].w < 0 ? -1 : 1);
     }
-    warn_count(document, object, bad, "tangents have no direction; replaced");
+    warn_amount(document, object, bad, "tangents have no direction; replaced");
 }
 
 }  // namespace
@@ -136,8 +130,8 @@ std::vector<glm::uvec3> read_triangles(Document& document, const tinygltf::Primi
     std::vector<glm::uvec3> triangles;
     if (mode == TINYGLTF_MODE_TRIANGLES) {
         if (indices.size() % 3 != 0) {
-            warn(document, object,
-                 std::to_string(indices.size()) + " indices are no whole number of triangles; the rest is left out");
+            warn(document, object, "the indices are no whole number of triangles; the rest is left out",
+                 "there are " + std::to_string(indices.size()));
         }
         triangles.reserve(indices.size() / 3);
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
@@ -168,14 +162,14 @@ void clean_primitive(Document& document, Primitive& primitive, const std::string
             }
         }
     }
-    warn_count(document, object, bad_uvs, "texture coordinates are not finite; set to 0");
+    warn_amount(document, object, bad_uvs, "texture coordinates are not finite; set to 0");
     std::size_t bad_colors = 0;
     for (glm::vec4& color : primitive.colors) {
         const glm::vec4 clean = is_finite(color) ? glm::clamp(color, 0.0F, 1.0F) : glm::vec4(1);
         bad_colors += clean != color ? 1 : 0;
         color = clean;
     }
-    warn_count(document, object, bad_colors, "vertex colours are out of range; clamped");
+    warn_amount(document, object, bad_colors, "vertex colours are out of range; clamped");
 }
 
 }  // namespace diptych::gltf

@@ -23,6 +23,17 @@ bool moves_node(const Channel& channel) {
            channel.property == AnimatedProperty::scale;
 }
 
+template <typename Function>
+void for_each_playing(const Scene& scene, const Function& function) {
+    for (const Animation& animation : scene.animations) {
+        for (const Channel& channel : animation.channels) {
+            if (channel.plays) {
+                function(channel);
+            }
+        }
+    }
+}
+
 void set_node(Node& node, AnimatedProperty property, const glm::dvec4& value) {
     if (property == AnimatedProperty::translation) {
         node.translation = glm::dvec3(value);
@@ -92,23 +103,22 @@ glm::dmat4 view_of(const Scene& scene, const glm::dmat4& to_world, const std::st
 }  // namespace
 
 bool moves(const Scene& scene) {
-    return !scene.animations.empty();
+    bool any = false;
+    for_each_playing(scene, [&](const Channel&) { any = true; });
+    return any;
 }
 
 double duration(const Scene& scene) {
     double seconds = 0;
-    for (const Animation& animation : scene.animations) {
-        seconds = std::max(seconds, duration(animation));
-    }
+    for_each_playing(scene, [&](const Channel& channel) {
+        seconds = std::max(seconds, static_cast<double>(channel.times.back()));
+    });
     return seconds;
 }
 
 void pose_scene(Scene& scene, double seconds) {
-    for (const Animation& animation : scene.animations) {
-        for (const Channel& channel : animation.channels) {
-            set_property(scene, channel, sample_channel(channel, seconds));
-        }
-    }
+    for_each_playing(
+        scene, [&](const Channel& channel) { set_property(scene, channel, sample_channel(channel, seconds)); });
     for (Material& material : scene.materials) {
         if (material.moving_emission) {
             material.emission = radiance(glm::dvec3(material.moving_emission->factor),
@@ -140,14 +150,12 @@ Camera camera_at(const Scene& scene, std::size_t camera, double seconds) {
         return posed;
     }
     std::vector<Node> nodes = scene.nodes;
-    for (const Animation& animation : scene.animations) {
-        for (const Channel& channel : animation.channels) {
-            if (moves_node(channel)) {
-                set_node(nodes[static_cast<std::size_t>(channel.target)], channel.property,
-                         sample_channel(channel, seconds));
-            }
+    for_each_playing(scene, [&](const Channel& channel) {
+        if (moves_node(channel)) {
+            set_node(nodes[static_cast<std::size_t>(channel.target)], channel.property,
+                     sample_channel(channel, seconds));
         }
-    }
+    });
     const std::vector<glm::dmat4> to_world = place_nodes(scene, nodes, seconds);
     posed.camera_to_world =
         view_of(scene, to_world[static_cast<std::size_t>(posed.node)], "camera '" + posed.name + "'", seconds);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scene/animation.h"
+#include "scene/warnings.h"
 
 namespace diptych {
 
@@ -156,8 +157,8 @@ struct Scene {
     std::vector<PunctualLight> lights;
     Environment environment;
     std::vector<Node> nodes;  // only those that move or carry what moves, parents first
-    std::vector<Animation> animations;
-    std::vector<std::string> warnings;  // one line each, in the order met
+    std::vector<Animation> animations;  // as many as the file has, with the same indices
+    Warnings warnings;                  // of the import and of what was added to the scene since
 };
 
 }  // namespace diptych

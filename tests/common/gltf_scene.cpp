@@ -75,7 +75,7 @@ TEST_CASE("a mirrored scale stays in the instance", "[gltf]") {
     REQUIRE(scene.instances.size() == 1);
     CHECK(glm::determinant(glm::dmat3(scene.instances[0].object_to_world)) == Approx(-2));
     REQUIRE(scene.warnings.size() == 1);
-    CHECK_THAT(scene.warnings[0], Catch::Contains("nodes[1]") && Catch::Contains("scale of 0"));
+    CHECK_THAT(scene.warnings.lines()[0], Catch::Contains("nodes[1]") && Catch::Contains("scale of 0"));
 }
 
 TEST_CASE("cameras are rigid, whatever their nodes scale", "[gltf]") {

@@ -6,6 +6,7 @@
 #include "catch.h"
 #include "error.h"
 #include "gltf_fixture.h"
+#include "scene/clips.h"
 #include "scene/gltf_import.h"
 
 using namespace diptych;
@@ -155,7 +156,7 @@ TEST_CASE("emission and intensity follow KHR_animation_pointer, and other pointe
         R"(,"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","color":[1,0.25,0],"intensity":3}]}})";
     Scene scene = file.load();
     REQUIRE(scene.warnings.size() == 1);
-    CHECK_THAT(scene.warnings[0], Catch::Contains("/cameras/0/perspective/yfov"));
+    CHECK_THAT(scene.warnings.lines()[0], Catch::Contains("/cameras/0/perspective/yfov"));
     CHECK(scene.materials.at(0).emission == glm::vec3(1));
     CHECK(scene.lights.at(0).intensity == glm::vec3(3, 0.75F, 0));
     pose_scene(scene, 0);
@@ -174,21 +175,17 @@ TEST_CASE("what cannot be played is a warning", "[animation]") {
     file.animation = one_channel(weights, R"("node":0,"path":"weights")");
     const Scene scene = file.load();
     REQUIRE(scene.warnings.size() == 1);
-    CHECK_THAT(scene.warnings[0], Catch::Contains("morph targets"));
+    CHECK_THAT(scene.warnings.lines()[0], Catch::Contains("morph targets"));
     CHECK(!moves(scene));
     file.animation = one_channel(weights, R"("path":"translation")");
-    CHECK_THAT(file.load().warnings.at(0), Catch::Contains("names no node"));
+    CHECK_THAT(file.load().warnings.lines().at(0), Catch::Contains("names no node"));
 }
 
-TEST_CASE("broken animations are refused, naming animation, channel and reason", "[animation]") {
+TEST_CASE("animations whose data cannot be read are refused, naming animation, channel and reason", "[animation]") {
     MovingFile file;
     file.nodes = still_node;
     const int good = file.builder.floats({0, 0, 0, 1, 1, 1}, "VEC3", 2);
-    const int endless = file.builder.floats({0, 0, 0, 1, INFINITY, 1}, "VEC3", 2);
-    const int falling = file.builder.floats({1, 1}, "SCALAR", 2);
-    const int early = file.builder.floats({-1, 1}, "SCALAR", 2);
     const int whole = file.builder.accessor(raw<std::uint16_t>({0, 1}), 5123, "SCALAR", 2);
-    const int no_turn = file.builder.floats({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 2);
     const std::string node = R"("node":0,"path":"translation")";
     const auto refused = [&](const std::string& animation, const std::string& object, const std::string& reason) {
         file.animation = animation;
@@ -204,11 +201,6 @@ TEST_CASE("broken animations are refused, naming animation, channel and reason",
     refused(one_channel(good, R"("node":7,"path":"translation")"), "channels[0]", "there is no nodes[7]");
     refused(one_channel(good, R"("node":0,"path":"rotation")"), "channels[0]", "4 are needed");
     refused(one_channel(good, node, R"(,"interpolation":"CUBICSPLINE")"), "output", "6 are needed");
-    refused(one_channel(good, node, R"(,"interpolation":"QUINTIC")"), "samplers[0]", "QUINTIC");
-    refused(one_channel(endless, node), "output", "value 1 is not finite");
-    refused(one_channel(no_turn, R"("node":0,"path":"rotation")"), "output", "value 1 is no rotation");
-    refused(times(falling), "input", "times must rise");
-    refused(times(early), "input", "times must rise");
     refused(times(whole), "input", "no floats");
     refused(R"("channels":[{"sampler":0,"target":{)" + node + "}}]", "channels[0].sampler", "samplers[0]");
     refused(R"("samplers":[],"channels":[{"target":{)" + node + "}}]", "channels[0].sampler", "missing");
@@ -217,6 +209,80 @@ TEST_CASE("broken animations are refused, naming animation, channel and reason",
     refused(R"("samplers":[{}])", "channels", "missing");
     file.nodes = R"({"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]})";
     refused(one_channel(good, node), "channels[0].target", "has a matrix");
+}
+
+TEST_CASE("faulty keyframes are repaired with a warning of their clip, and none of the scene", "[animation]") {
+    MovingFile file;
+    file.nodes = still_node;
+    const int path = file.builder.floats({0, 0, 0, 4, 0, 0, 8, 0, 0}, "VEC3", 3);
+    const std::string node = R"("node":0,"path":"translation")";
+    // Where the node is at some moments, by its keys' times and what else the sampler has.
+    const auto check = [&](std::initializer_list<float> times, const std::string& more, const std::string& warning,
+                           const std::vector<std::pair<double, double>>& expected) {
+        const int input = file.builder.floats(times, "SCALAR", 3);
+        file.animation = R"("samplers":[{"input":)" + std::to_string(input) + R"(,"output":)" + std::to_string(path) +
+                         more + R"(}],"channels":[{"sampler":0,"target":{)" + node + "}}]";
+        Scene scene = file.load();
+        INFO(warning);
+        CHECK(scene.warnings.empty());
+        REQUIRE(scene.animations.size() == 1);
+        REQUIRE(scene.animations[0].warnings.size() == 1);
+        CHECK_THAT(scene.animations[0].warnings.lines()[0],
+                   Catch::Contains("animations[0] (a).channels[0].samplers[0]") && Catch::Contains(warning));
+        CHECK(origin_of(scene.instances.at(0).object_to_world) == glm::dvec3(0));  // at rest
+        for (const auto& [seconds, x] : expected) {
+            INFO(seconds);
+            pose_scene(scene, seconds);
+            CHECK(std::abs(origin_of(scene.instances[0].object_to_world).x - x) < 1e-6);
+        }
+    };
+    check({-1, 1, 2}, "", "has keys before 0 s; they are played from 0 s on: time 0 is -1", {{0, 2}, {1, 4}, {2, 8}});
+    check({0, 1, 1}, "", "has two keys at one time; the value jumps there: time 2 is 1",
+          {{0.5, 2}, {0.999, 3.996}, {1, 8}, {5, 8}});
+    check({2, 0, 1}, "", "has keys that are not in order of time; they are sorted: time 1 is 0",
+          {{0, 4}, {0.5, 6}, {1, 8}, {1.5, 4}, {2, 0}});
+    check({0, 1, 2}, R"(,"interpolation":"QUINTIC")", "is unknown; taken as LINEAR: it is \"QUINTIC\"",
+          {{0.5, 2}, {1.5, 6}});
+    check({0, 1, 2}, R"(,"interpolation":7)", "is unknown; taken as LINEAR: it is 7", {{0.5, 2}});
+}
+
+TEST_CASE("keys of splines are sorted with their tangents", "[animation]") {
+    MovingFile file;
+    file.nodes = still_node;
+    const int input = file.builder.floats({1, 0}, "SCALAR", 2);
+    // From x = 0 to x = 1, leaving at a speed of 3 and arriving at rest: at half the way 0.5 + 3 / 8.
+    const int path = file.builder.floats({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0}, "VEC3", 6);
+    file.animation = R"("samplers":[{"input":)" + std::to_string(input) + R"(,"output":)" + std::to_string(path) +
+                     R"(,"interpolation":"HERMITE"}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}])";
+    Scene scene = file.load();
+    CHECK(scene.animations.at(0).warnings.size() == 2);
+    CHECK_THAT(scene.animations[0].warnings.lines()[0], Catch::Contains("taken as CUBICSPLINE"));
+    pose_scene(scene, 0.5);
+    CHECK(std::abs(origin_of(scene.instances.at(0).object_to_world).x - 0.875) < 1e-6);
+}
+
+TEST_CASE("a channel whose keyframes cannot be repaired is left out with a warning of its clip", "[animation]") {
+    MovingFile file;
+    file.nodes = still_node;
+    const int endless = file.builder.floats({0, 0, 0, 1, INFINITY, 1}, "VEC3", 2);
+    const int no_turn = file.builder.floats({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 2);
+    const int never = file.builder.floats({0, NAN}, "SCALAR", 2);
+    const std::string node = R"("node":0,"path":"translation")";
+    const auto left_out = [&](const std::string& animation, const std::string& reason) {
+        file.animation = animation;
+        const Scene scene = file.load();
+        INFO(reason);
+        CHECK(scene.warnings.empty());
+        CHECK_FALSE(moves(scene));
+        REQUIRE(clip_warnings(scene).size() == 1);
+        CHECK_THAT(clip_warnings(scene).lines()[0], Catch::Contains("animations[0] (a).channels[0]") &&
+                                                        Catch::Contains(reason + "; left out"));
+    };
+    left_out(one_channel(endless, node), "has a value that is not finite");
+    left_out(one_channel(no_turn, R"("node":0,"path":"rotation")"), "has a value that is no rotation");
+    left_out(R"("samplers":[{"input":)" + std::to_string(never) + R"(,"output":)" + std::to_string(endless) +
+                 R"(}],"channels":[{"sampler":0,"target":{)" + node + "}}]",
+             "has a time that is not finite");
 }
 
 TEST_CASE("a camera that loses its direction is an error with a time", "[animation]") {

@@ -82,7 +82,7 @@ TEST_CASE("Extreme scenes give nothing but numbers on the device", "[nightly]") 
 TEST_CASE("A broken mesh is cleaned, and what was dropped is counted") {
     const Scene scene = load_gltf((folder / "broken-mesh.gltf").string());
     std::string all;
-    for (const std::string& warning : scene.warnings) {
+    for (const std::string& warning : scene.warnings.lines()) {
         all += warning + "\n";
     }
     INFO(all);
