@@ -100,6 +100,8 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
                     "Load the file without this glTF extension, though it requires it; may be repeated")
         ->type_name("NAME")
         ->allow_extra_args(false);
+    command.add_flag("--allow-external", request.allow_external,
+                     "Read buffers and textures that lie outside the scene file's folder too");
     command.add_flag("--strict", request.strict,
                      "Refuse a scene file with faults or parts that cannot be shown, instead of a warning");
     arguments.panel_options.push_back(command.add_flag("--generic", request.settings.generic,

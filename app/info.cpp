@@ -199,7 +199,7 @@ int run_info(InfoOptions options) {
     request.settings.standard_error = options.layers;
     request.settings.first_hit_layers = options.layers;
     const Scene scene = prepare_scene(options.arguments);
-    report_clips(scene, request);
+    report_warnings(clip_warnings(scene));
     const nlohmann::ordered_json json = gather(scene, pack_scene(scene, request.settings), request);
     if (options.json) {
         print_json(json);

@@ -140,7 +140,7 @@ bool has_light(const Scene& scene) {
 }
 
 Scene load_requested(RenderRequest& request) {
-    Scene scene = load_gltf(request.scene, {request.ignored_extensions, request.strict});
+    Scene scene = load_gltf(request.scene, {request.ignored_extensions, request.strict, request.allow_external});
     if (scene.name.empty()) {
         scene.name = request.scene;
     }
@@ -190,7 +190,7 @@ Scene prepare_scene(RenderArguments& arguments) {
 void report_clips(const Scene& scene, const RenderRequest& request) {
     const Warnings warnings = clip_warnings(scene);
     if (request.strict && !warnings.empty()) {
-        throw Error(fmt::format("{}: {}", scene.name, warnings.lines().front()));
+        throw Error(warnings.lines().front());
     }
     report_warnings(warnings);
 }

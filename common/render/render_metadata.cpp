@@ -125,6 +125,7 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
     for (const std::string& extension : request.ignored_extensions) {
         add_option(command, "--ignore-extension", extension);
     }
+    command += request.allow_external ? " --allow-external" : "";
     add_option(command, "-o", request.output);
     add_option(command, "--backend", request.backend);
     if (!request.device.empty()) {
@@ -164,6 +165,7 @@ std::string replay_command(const RenderRequest& request, const shared::PathQuery
     for (const std::string& extension : request.ignored_extensions) {
         add_option(command, "--ignore-extension", extension);
     }
+    command += request.allow_external ? " --allow-external" : "";
     add_option(command, "--pixel", fmt::format("{},{}", path.pixel.x, path.pixel.y));
     add_option(command, "--sample", path.sample_index);
     add_option(command, "--integrator", name_of(settings.integrator));

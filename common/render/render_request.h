@@ -16,6 +16,7 @@ struct RenderRequest {
     std::string scene;                            // file
     std::vector<std::string> ignored_extensions;  // required by the file, lacking here, and done without
     bool strict = false;                          // refuse a file that loads with a warning
+    bool allow_external = false;                  // read what the file names outside its folder too
     std::string clip;                             // name or index of the animation to play; empty is all
     std::string output;                           // file
     std::string backend = "cpu";                  // cpu, vulkan or oracle

@@ -50,8 +50,8 @@ void play_all_clips(Scene& scene) {
             channel.plays = owner == i;
             if (!channel.plays) {
                 scene.animations[owner].warnings.add(
-                    "moves what other clips move too, and plays there, as the first of them; --clip chooses another",
-                    "clip " + clip_label(scene, owner), "clip " + clip_label(scene, i) + " does not play there");
+                    "plays, as the first of several clips for one target; --clip chooses another one",
+                    scene.name + ": clip " + clip_label(scene, owner), clip_label(scene, i) + " does not play there");
             }
         }
     }

@@ -8,8 +8,15 @@
 namespace diptych::gltf {
 namespace {
 
-// The most elements that an accessor may have without bytes in the file to back them.
-constexpr std::size_t max_implied_elements = std::size_t{1} << 26;
+// The most elements that an accessor may have without bytes in the file to back them. Other attributes of the same
+// primitive need bytes for each of theirs, so more than the file has bytes make no sense.
+std::size_t max_implied_elements(const tinygltf::Model& model) {
+    std::size_t bytes = std::size_t{1} << 16;
+    for (const tinygltf::Buffer& buffer : model.buffers) {
+        bytes += buffer.data.size();
+    }
+    return bytes;
+}
 
 struct Span {
     const std::uint8_t* data = nullptr;
@@ -166,8 +173,10 @@ std::vector<Number> read(const Document& document, const tinygltf::Accessor& acc
     Span span;
     if (accessor.bufferView >= 0) {
         span = find_span(document, accessor.bufferView, accessor.byteOffset, accessor.count, size, object);
-    } else if (accessor.count > max_implied_elements) {
-        fail(document, object, "has " + std::to_string(accessor.count) + " elements and no buffer view");
+    } else if (const std::size_t most = max_implied_elements(document.model); accessor.count > most) {
+        fail(document, object,
+             "has " + std::to_string(accessor.count) + " elements and no buffer view; a file of this size may have " +
+                 std::to_string(most));
     }
     std::vector<Number> numbers(accessor.count * components);
     if (span.data != nullptr) {

@@ -58,6 +58,12 @@ std::filesystem::path path_of_uri(const std::string& uri, const std::filesystem:
     return named_so ? escaped : plain;
 }
 
+/// Whether a relative path, once all .. in it are resolved, begins with one.
+bool leads_out(const std::string& uri) {
+    const std::filesystem::path path = from_utf8(decode_percent(uri)).lexically_normal();
+    return path.is_absolute() || (!path.empty() && *path.begin() == "..");
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
@@ -69,20 +75,17 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(status)) {
         throw Error("is a folder, not a file");
     }
+    if (!std::filesystem::is_regular_file(status)) {
+        throw Error("is a device or a pipe, not a file");
+    }
     std::ifstream stream(path, std::ios::binary);
     if (!stream) {
         throw Error("cannot be opened for reading");
     }
-    std::vector<std::uint8_t> bytes;
-    const std::uintmax_t size = std::filesystem::is_regular_file(status) ? std::filesystem::file_size(path, error) : 0;
-    if (size > 0 && !error) {
-        bytes.resize(size);
-        stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-        if (stream.gcount() != static_cast<std::streamsize>(size)) {
-            throw Error("cannot be read to its end");
-        }
-    } else {
-        bytes.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    std::vector<std::uint8_t> bytes(std::filesystem::file_size(path));
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) {
+        throw Error("cannot be read to its end");
     }
     return bytes;
 }
@@ -132,7 +135,7 @@ std::optional<std::filesystem::path> file_of_uri(const std::string& uri, const s
     return embedded || unusable ? std::nullopt : std::optional(path_of_uri(uri, folder));
 }
 
-std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem::path& folder) {
+std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem::path& folder, bool allow_external) {
     if (uri.rfind("data:", 0) == 0) {
         const std::size_t comma = uri.find(',');
         if (comma == std::string::npos) {
@@ -157,6 +160,9 @@ std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem
     }
     if (uri.find('\0') != std::string::npos || decode_percent(uri).find('\0') != std::string::npos) {
         throw Error("the URI holds a zero byte");
+    }
+    if (!allow_external && leads_out(uri)) {
+        throw Error("the URI '" + uri + "' leads out of the file's folder (--allow-external reads it)");
     }
     try {
         return read_bytes(path_of_uri(uri, folder));

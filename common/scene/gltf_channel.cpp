@@ -85,7 +85,7 @@ std::optional<Target> pointer_target(Document& document, const Json& target, con
 }
 
 std::optional<Target> node_target(Document& document, const Json& target, const std::string& path,
-                                  const std::string& object) {
+                                  const std::string& object, Warnings& warnings) {
     AnimatedProperty property{};
     if (path == "translation") {
         property = AnimatedProperty::translation;
@@ -105,20 +105,23 @@ std::optional<Target> node_target(Document& document, const Json& target, const 
     }
     const int node = index_member(document, target, "node", document.model.nodes.size(), "nodes", object + ".target");
     if (!document.model.nodes[static_cast<std::size_t>(node)].matrix.empty()) {
-        fail(document, object + ".target",
-             "nodes[" + std::to_string(node) + "] has a matrix, which cannot be animated");
+        warn(document, warnings, object + ".target", "moves a node that has a matrix; left out",
+             "it is nodes[" + std::to_string(node) + "]");
+        return std::nullopt;
     }
     return Target{property, node};
 }
 
-std::optional<Target> read_target(Document& document, const Json& channel, const std::string& object) {
+std::optional<Target> read_target(Document& document, const Json& channel, const std::string& object,
+                                  Warnings& warnings) {
     const Json* target = member(channel, "target");
     const Json* path = target != nullptr ? member(*target, "path") : nullptr;
     if (path == nullptr || !path->is_string()) {
         fail(document, object + ".target.path", "is missing");
     }
     const std::string text = path->get<std::string>();
-    return text == "pointer" ? pointer_target(document, *target, object) : node_target(document, *target, text, object);
+    return text == "pointer" ? pointer_target(document, *target, object)
+                             : node_target(document, *target, text, object, warnings);
 }
 
 // What is unknown is taken for what the number of values allows: splines have three a key.
@@ -208,7 +211,7 @@ std::optional<Channel> read_channel(Document& document, const Json& animation, c
     const Json* samplers = member(animation, "samplers");
     const int index =
         index_member(document, channel, "sampler", samplers != nullptr ? samplers->size() : 0, "samplers", object);
-    const std::optional<Target> target = read_target(document, channel, object);
+    const std::optional<Target> target = read_target(document, channel, object, warnings);
     if (!target) {
         return std::nullopt;
     }

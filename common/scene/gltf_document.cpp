@@ -7,6 +7,7 @@
 
 #include "error.h"
 #include "scene/gltf_bytes.h"
+#include "scene/gltf_schema.h"
 
 namespace diptych::gltf {
 namespace {
@@ -106,7 +107,7 @@ void read_buffers(Document& document, const Json& buffers, std::optional<Bytes> 
         tinygltf::Buffer buffer;
         if (entry.contains("uri")) {
             try {
-                buffer.data = read_uri(string_member(entry, "uri"), document.folder);
+                buffer.data = read_uri(string_member(entry, "uri"), document.folder, document.allow_external);
             } catch (const Error& error) {
                 fail(document, object + ".uri", error.what());
             }
@@ -157,7 +158,7 @@ void read_images(Document& document, const Json& images) {
                 image.name = decode_percent(uri);
             }
             if (entry.contains("uri")) {
-                image.bytes = read_uri(uri, document.folder);
+                image.bytes = read_uri(uri, document.folder, document.allow_external);
             } else if (const std::optional<std::uint64_t> view = unsigned_member(entry, "bufferView")) {
                 image.bytes = view_bytes(document, *view);
             } else {
@@ -208,7 +209,7 @@ void check_extensions(Document& document, const Json& root, const std::vector<st
                  "needs " + extension + ", which is not supported (--ignore-extension " + extension +
                      " does without it)");
         }
-        document.warnings.add(extension + " is ignored, as asked for", "extensionsRequired");
+        document.warnings.add(extension + " is ignored, as asked for", document.file + ": extensionsRequired");
     }
     for (const std::string& extension : strings_of(root, "extensionsUsed")) {
         if (!contains(supported_extensions, extension) && !contains(required, extension)) {
@@ -247,7 +248,7 @@ void warn(const Document& document, Warnings& warnings, const std::string& objec
     if (document.strict) {
         fail(document, object, kind + (detail.empty() ? "" : ": " + detail));
     }
-    warnings.add(one_line(kind), one_line(object), one_line(detail));
+    warnings.add(one_line(kind), one_line(document.file + ": " + object), one_line(detail));
 }
 
 void warn(Document& document, const std::string& object, const std::string& kind, const std::string& detail) {
@@ -258,7 +259,7 @@ void warn_amount(Document& document, const std::string& object, std::size_t amou
     if (document.strict && amount > 0) {
         fail(document, object, std::to_string(amount) + " " + kind);
     }
-    document.warnings.add_amount(amount, kind, object);
+    document.warnings.add_amount(amount, kind, one_line(document.file + ": " + object));
 }
 
 std::string label(const char* table, std::size_t index, const std::string& name) {
@@ -273,6 +274,7 @@ bool declares_extension(const Document& document, const std::string& name) {
 Document read_document(const std::filesystem::path& path, const GltfOptions& options) {
     Document document;
     document.strict = options.strict;
+    document.allow_external = options.allow_external;
     document.file = path.string();
     document.folder = path.parent_path();
     Bytes bytes;
@@ -293,6 +295,7 @@ Document read_document(const std::filesystem::path& path, const GltfOptions& opt
     Json root = parse_json(document, chunks.json);
     check_version(document, root);
     check_extensions(document, root, options.ignored_extensions);
+    check_types(document, root);
     const Json buffers = take_array(root, "buffers");
     const Json images = take_array(root, "images");
     document.animations = take_array(root, "animations");

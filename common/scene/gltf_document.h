@@ -29,7 +29,8 @@ struct Document {
     tinygltf::Model model;  // its `images`, `animations` and buffers' `uri` are empty: this project reads them
     std::vector<EncodedImage> images;
     nlohmann::json animations;  // an array, as it stands in the file
-    bool strict = false;        // a warning is an error
+    bool strict = false;          // a warning is an error
+    bool allow_external = false;  // URIs may lead out of the folder
     Warnings warnings;
 };
 

@@ -12,7 +12,8 @@ namespace diptych {
 struct GltfOptions {
     std::vector<std::string>
         ignored_extensions;  // loaded without, though the file requires them and they are not supported
-    bool strict = false;     // whatever would be a warning is an error
+    bool strict = false;          // whatever would be a warning is an error
+    bool allow_external = false;  // read buffers and images that lie outside the file's folder too
 };
 
 /// Loads a .gltf or .glb file: the default scene (else the first, else all root nodes) at rest, skins and morph targets

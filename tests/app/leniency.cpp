@@ -119,7 +119,7 @@ TEST_CASE("of two clips for one node the first plays with one warning, or the on
         CHECK(count_of(warning, chosen.err) == 0);
         CHECK(contains(read_image(folder.file("out.0001.exr")).metadata.at("command"), "--clip " + clip));
     }
-    check_refusal(render(folder, scene, {"--frames", "2", "--strict"}), 2, {scene, warning, "clip 1 'idle'"});
+    check_refusal(render(folder, scene, {"--frames", "2", "--strict"}), 2, {scene, warning, "1 'idle' does not play"});
     for (const std::string command : {"render", "verify", "bench", "replay", "converge", "view", "info"}) {
         INFO(command);
         const ProcessResult help = run_diptych(folder, {command, "--help"});

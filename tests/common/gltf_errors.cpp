@@ -122,8 +122,12 @@ TEST_CASE("node hierarchies that are no trees are refused", "[gltf]") {
     CHECK_THAT(refusal_of(root(R"("nodes":[{"children":[2]},{"children":[2]},{}])")), Catch::Contains("two parents"));
     CHECK_THAT(refusal_of(root(R"("nodes":[{"children":[9]}])")), Catch::Contains("nodes[9]"));
     CHECK_THAT(refusal_of(root(R"("nodes":[{"mesh":0}])")), Catch::Contains("meshes[0]"));
-    CHECK_THAT(refusal_of(root(R"("nodes":[{"scale":[1e300,1,1],"children":[1]},{"scale":[1e300,1,1]}])")),
-               Catch::Contains("nodes[1]") && Catch::Contains("not finite"));
+    std::string giants;
+    for (int i = 0; i < 9; ++i) {
+        giants += R"({"scale":[1e38,1,1],"children":[)" + std::to_string(i + 1) + "]},";
+    }
+    CHECK_THAT(refusal_of(root(R"("nodes":[)" + giants + "{}]")),
+               Catch::Contains("nodes[8]") && Catch::Contains("not finite"));
     CHECK_THAT(refusal_of(root(
                    R"("nodes":[{"camera":0}],"cameras":[{"type":"perspective","perspective":{"yfov":4,"znear":1}}])")),
                Catch::Contains("cameras[0].perspective.yfov"));
@@ -162,4 +166,84 @@ TEST_CASE("an image that is missing or broken matters only where it is used", "[
         load_gltf(folder.write("occluded.gltf", root(images + R"(,"materials":[{"occlusionTexture":{"index":0}}])")));
     CHECK(scene.images.empty());
     CHECK(scene.warnings.size() == 1);  // that there are no triangles
+}
+
+TEST_CASE("a member of a wrong type is refused by its JSON pointer", "[gltf]") {
+    const auto refused = [](const std::string& members, const std::string& pointer, const std::string& reason) {
+        INFO(members);
+        CHECK_THAT(refusal_of(root(members)), Catch::Contains(": " + pointer + ": ") && Catch::Contains(reason));
+    };
+    const auto material = [](const std::string& members) { return R"("materials":[{},{)" + members + "}]"; };
+    refused(material(R"("pbrMetallicRoughness":{"roughnessFactor":"0.1"})"),
+            "/materials/1/pbrMetallicRoughness/roughnessFactor", "is no number: \"0.1\"");
+    refused(material(R"("pbrMetallicRoughness":[])"), "/materials/1/pbrMetallicRoughness", "is no object");
+    refused(material(R"("normalTexture":{"index":-1})"), "/materials/1/normalTexture/index", "is no index: -1");
+    refused(material(R"("doubleSided":1)"), "/materials/1/doubleSided", "is neither true nor false");
+    refused(material(R"("alphaMode":3)"), "/materials/1/alphaMode", "is no string");
+    refused(material(R"("extensions":{"KHR_materials_ior":{"ior":[1.5]}})"),
+            "/materials/1/extensions/KHR_materials_ior/ior", "is no number");
+    refused(R"("nodes":[{"translation":[1e300,0,0]}])", "/nodes/0/translation/0", "is out of range");
+    refused(R"("nodes":[{"rotation":[null,0,0,1]}])", "/nodes/0/rotation/0", "is no number: null");
+    refused(R"("nodes":[{"matrix":"x"}])", "/nodes/0/matrix", "is no array");
+    refused(R"("nodes":[{"mesh":4294967296}])", "/nodes/0/mesh", "is no index");
+    refused(R"("meshes":[{"primitives":[{"attributes":{"POSITION":4294967296}}]}])",
+            "/meshes/0/primitives/0/attributes/POSITION", "is no index");
+    refused(R"("meshes":[{"primitives":[{"attributes":{},"mode":4.5}]}])", "/meshes/0/primitives/0/mode", "is no integer");
+    refused(R"("bufferViews":[{"buffer":0,"byteLength":4,"byteStride":-4}])", "/bufferViews/0/byteStride",
+            "is no whole number from 0 up");
+    refused(R"("bufferViews":[{"buffer":0,"byteLength":4,"byteOffset":0.5}])", "/bufferViews/0/byteOffset",
+            "is no whole number from 0 up");
+    refused(R"("accessors":[{"componentType":5126,"count":1,"type":"VEC3","byteOffset":-12}])",
+            "/accessors/0/byteOffset", "is no whole number from 0 up");
+    refused(R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":"x"}]}})",
+            "/extensions/KHR_lights_punctual/lights/0/intensity", "is no number");
+}
+
+TEST_CASE("whole numbers may be written with a point", "[gltf]") {
+    GltfBuilder builder;
+    builder.triangle();
+    const std::string mesh = R"("nodes":[{"mesh":0.0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0.0},"mode":4.0}]}])";
+    const TemporaryFolder folder;
+    CHECK(load_gltf(folder.write("points.gltf", builder.text(mesh))).instances.size() == 1);
+}
+
+TEST_CASE("the found files with members of a wrong type are refused", "[gltf]") {
+    const std::filesystem::path folder = asset_folder() / "found/broken";
+    if (!std::filesystem::exists(folder)) {
+        SKIP_TEST("no assets at " + asset_folder().string());
+    }
+    for (const char* name : {"accoff-neg", "boff-float", "bv-2^32", "mode-float", "pos-2^32", "stride-neg",
+                             "translation-1e300", "trs-str", "ty-lightstr", "ty-matstr", "ty-rotnan", "ty-roughstr",
+                             "ty-tex-1", "ty-trs", "ty-weights"}) {
+        INFO(name);
+        CHECK_THAT(refusal(folder / (std::string(name) + ".gltf")), Catch::Contains(".gltf: /"));
+    }
+    CHECK_THAT(refusal(folder / "implied.gltf"), Catch::Contains("67108864 elements"));
+    CHECK_THAT(refusal(folder / "uri-dotdot.gltf"), Catch::Contains("leads out of the file's folder"));
+    CHECK_THAT(refusal(folder / "uri-absolute.gltf"), Catch::Contains("leads out of the file's folder"));
+    CHECK_THAT(refusal(folder / "uri-dev-zero.gltf"), Catch::Contains("/dev/zero"));
+}
+
+TEST_CASE("files outside the scene's folder are read only where that is allowed, and devices never", "[gltf]") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "scenes/deep");
+    folder.write("out.bin", raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}));
+    folder.write("scenes/in.bin", raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}));
+    const auto scene = [&](const std::string& uri) {
+        return folder.write("scenes/scene.gltf",
+                            root(one_mesh(R"("attributes":{"POSITION":0})") + R"(,"buffers":[{"byteLength":36,"uri":")" +
+                                 uri + R"("}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+                                       R"("componentType":5126,"type":"VEC3","count":3}])"));
+    };
+    CHECK_NOTHROW(load_gltf(scene("deep/../in.bin")));
+    GltfOptions external;
+    external.allow_external = true;
+    for (const std::string& uri : {std::string("../out.bin"), std::string("deep/../../out.bin"), std::string("%2E%2E/out.bin"),
+                                  (folder.path() / "out.bin").string()}) {
+        INFO(uri);
+        CHECK_THAT(refusal(scene(uri)), Catch::Contains("buffers[0].uri") && Catch::Contains("--allow-external"));
+        CHECK_NOTHROW(load_gltf(scene(uri), external));
+    }
+    CHECK_THROWS_WITH(load_gltf(scene("/dev/zero"), external), Catch::Contains("is a device or a pipe"));
+    CHECK_THROWS_WITH(load_gltf("/dev/zero"), Catch::Contains("is a device or a pipe"));
 }

@@ -239,7 +239,8 @@ TEST_CASE("warnings of one kind are counted over the whole file", "[gltf]") {
         folder.write("scene.gltf", builder.text(R"("nodes":[)" + nodes + R"(],"meshes":[)" + meshes + "]")),
         {"meshes[0].primitives[0]: 1 triangles have no area; dropped"});
     CHECK(scene.warnings.lines()[0] ==
-          "meshes[0].primitives[0]: 1 triangles have no area; dropped (and 97 more objects; 98 in all)");
+          (folder.path() / "scene.gltf").string() +
+              ": meshes[0].primitives[0]: 1 triangles have no area; dropped (and 97 more objects; 98 in all)");
 }
 
 TEST_CASE("strictly read, faulty keyframes are refused though nothing plays", "[gltf]") {

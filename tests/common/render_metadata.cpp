@@ -16,6 +16,8 @@ RenderRequest request_of_everything() {
     RenderRequest request;
     request.scene = "a scene's.gltf";
     request.ignored_extensions = {"EXT_one", "EXT_two"};
+    request.allow_external = true;
+    request.clip = "slow walk";
     request.output = "out.exr";
     request.backend = "vulkan";
     request.device = "1";
@@ -51,7 +53,7 @@ TEST_CASE("the repeating command holds every setting and survives a shell", "[re
     INFO(command);
     CHECK(contains(
         command,
-        "diptych render 'a scene'\\''s.gltf' --ignore-extension EXT_one --ignore-extension EXT_two -o out.exr "));
+        "diptych render 'a scene'\\''s.gltf' --ignore-extension EXT_one --ignore-extension EXT_two --allow-external -o out.exr "));
     for (const char* part : {"--backend vulkan",   "--device 1",         "--integrator direct",
                              "--spp 77",           "--size 640x480",     "--max-depth 8",
                              "--seed 4294967295",  "--brdf blinn-phong", "--sampler hammersley",
@@ -60,7 +62,8 @@ TEST_CASE("the repeating command holds every setting and survives a shell", "[re
                              "--aperture 0.01",    "--eye 1,-2.5,3e-07", "--look-at 0,0.1,0",
                              "--up 0,0,1",         "--fov 33.5",         "--view-height 4",
                              "--sun -20,35.5,3",   "--focus 2.5",        "--exposure -1.5",
-                             "--tonemap none",     "--no-layers",        "--generic"}) {
+                             "--tonemap none",     "--no-layers",        "--generic",
+                             "--clip 'slow walk'"}) {
         INFO(part);
         CHECK(contains(command, part));
     }
