@@ -86,7 +86,7 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
                        "WIDTHxHEIGHT in pixels, or a height: the camera's aspect gives the width");
     command.add_option("--camera", request.camera, "Camera by name or index; the first by default");
     command.add_option("--clip", request.clip,
-                       "Animation to play, by name or index (see info); by default all, and of two for one node the first");
+                       "Animation to play, by name or index (see info); all by default, and of two for one node the first");
     command.add_option("--env", request.environment,
                        "Light from infinity: R,G,B radiance, or a .hdr or .exr panorama, of which FILE:LAYER is one layer or part");
     command.add_option("--env-scale", request.environment_scale, "Factor on that light")->check(non_negative_number());

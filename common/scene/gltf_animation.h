@@ -22,8 +22,8 @@ struct Motion {
 };
 
 /// Reads the animations and fills Scene::nodes with what of the scene's nodes they move, and the ancestors of that.
-/// What cannot be played (morph weights, skins, other pointers) is left out with one warning a kind; faults of keyframes
-/// go into Animation::warnings. Throws Error naming animation and channel where their data cannot be read.
+/// What cannot be played (morph weights, skins, other pointers) is left out with one warning a kind; faults of
+/// keyframes go into Animation::warnings. Throws Error naming animation and channel where their data cannot be read.
 Motion read_motion(Document& document, const NodeTree& tree, Scene& scene);
 
 /// Fills Scene::animations once everything else is there, and marks what they change. `light_sources` holds for each of

@@ -10,8 +10,8 @@
 
 namespace diptych::gltf {
 
-/// Reads a whole file. Throws Error (its message without the file's name) where it is missing, no regular file (a device
-/// may never end) or unreadable.
+/// Reads a whole file. Throws Error (its message without the file's name) where it is missing, no regular file (a
+/// device may never end) or unreadable.
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path);
 
 /// Decodes RFC 4648 base64; white space and missing padding are let through. Nothing where another character stands in
@@ -22,8 +22,8 @@ std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text);
 std::string decode_percent(std::string_view text);
 
 /// Reads what a buffer's or an image's URI points at: data URIs of any media type, else a file relative to `folder`
-/// (escaped or not), which must not lead out of it unless `allow_external`. Throws Error (its message without the file's
-/// name).
+/// (escaped or not), which must not lead out of it unless `allow_external`. Throws Error (its message without the
+/// file's name).
 std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem::path& folder, bool allow_external);
 
 /// The file that such a URI names, escaped or not; nothing where it names none.

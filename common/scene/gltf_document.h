@@ -37,8 +37,8 @@ struct Document {
 /// Throws Error "file: object: reason".
 [[noreturn]] void fail(const Document& document, const std::string& object, const std::string& reason);
 
-/// Counts `object` under the warning `kind` (warnings.h); `detail` is more about this object. Throws Error instead where
-/// the document is read strictly.
+/// Counts `object` under the warning `kind` (warnings.h); `detail` is more about this object. Throws Error instead
+/// where the document is read strictly.
 void warn(Document& document, const std::string& object, const std::string& kind, const std::string& detail = {});
 
 /// The same for a fault that occurs `amount` times in the object, which may be 0.

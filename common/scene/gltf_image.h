@@ -8,8 +8,8 @@
 
 namespace diptych::gltf {
 
-/// Decodes PNG, JPEG, WebP and what else OpenImageIO reads (told by content) to 8-bit RGBA; alpha stays unassociated, nothing
-/// is colour-managed. Throws Error (its message without the file's name).
+/// Decodes PNG, JPEG, WebP and what else OpenImageIO reads (told by content) to 8-bit RGBA; alpha stays unassociated,
+/// nothing is colour-managed. Throws Error (its message without the file's name).
 TextureImage decode_image(const EncodedImage& encoded);
 
 /// Whether this OpenImageIO reads WebP.

@@ -17,10 +17,10 @@ struct GltfOptions {
 };
 
 /// Loads a .gltf or .glb file: the default scene (else the first, else all root nodes) at rest, skins and morph targets
-/// baked, with its animations (pose.h). Faults that a picture can be made in spite of become Scene::warnings, and those of
-/// keyframes Animation::warnings. Throws Error, one line naming file, object and reason, where the file cannot be read,
-/// its data cannot be used, or it requires an extension that is neither supported nor ignored by `options`. The
-/// environment stays empty.
+/// baked, with its animations (pose.h). Faults that a picture can be made in spite of become Scene::warnings, and
+/// those of keyframes Animation::warnings. Throws Error, one line naming file, object and reason, where the file cannot
+/// be read, its data cannot be used, or it requires an extension that is neither supported nor ignored by `options`.
+/// The environment stays empty.
 Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 }  // namespace diptych

@@ -13,8 +13,8 @@ double duration(const Scene& scene);
 
 /// Puts everything that an animation moves where it is at `seconds`: nodes, and with them instances, cameras and
 /// lights; emissions and intensities, cut at 0 from below. All channels that play do so together; where two set the
-/// same property, the later one wins. Indices and counts stay as they are. What nothing moves stays at rest, and depends on
-/// no earlier pose. Throws Error where a camera or light is left without a direction, or a transform is not finite.
+/// same property, the later one wins. Indices and counts stay as they are. What nothing moves stays at rest, and
+/// depends on no earlier pose. Throws Error where a camera or light is left without a direction, or a transform is not finite.
 void pose_scene(Scene& scene, double seconds);
 
 /// One of the cameras at that moment, the scene left as it is. Throws Error likewise.

@@ -21,7 +21,7 @@ std::string write_triangle(const TemporaryFolder& folder, const std::string& nod
 {"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
 {"bufferView":0,"componentType":5126,"count":2,"type":"VEC3"}],
 "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":8,"byteLength":8}],
-"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
     return path;
 }
 
@@ -75,9 +75,9 @@ TEST_CASE("a faulty file renders with one warning, and is refused by --strict", 
         check_refusal(render(folder, scene, {"--strict"}), 2, refusal);
     };
     const std::string camera = R"({"camera":0,"translation":[0,0,2]})";
-    check(write_triangle(folder, R"([{"mesh":0},)" + camera + "]",
-                         std::string(cameras) + R"(,"materials":[{"emissiveFactor":[1,1,1],"emissiveTexture":)"
-                                                R"({"index":0}}],"textures":[{"source":0}],"images":[{"uri":"wood.png"}])"),
+    const std::string textured = R"(,"materials":[{"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}}])"
+                                 R"(,"textures":[{"source":0}],"images":[{"uri":"wood.png"}])";
+    check(write_triangle(folder, R"([{"mesh":0},)" + camera + "]", cameras + textured),
           {"images[0] (wood.png)", "no such file"});
     check(write_triangle(folder, R"([{"children":[1]},{"mesh":0},)" + camera + "]",
                          std::string(emissive) + cameras + R"(,"scenes":[{"nodes":[0,1,2]}])"),
@@ -108,7 +108,8 @@ TEST_CASE("info lists the clips, and warnings too as JSON", "[app]") {
 
 TEST_CASE("of two clips for one node the first plays with one warning, or the one that is asked for", "[app]") {
     const TemporaryFolder folder;
-    const std::string scene = write_triangle(folder, R"([{"mesh":0}])", emissive + two_clips());
+    const std::string scene =
+        write_triangle(folder, R"([{"mesh":0},{"camera":0,"translation":[0,0,2]}])", emissive + two_clips() + cameras);
     const std::string warning = "clip 0 'walk'";
     CHECK(count_of(warning, render(folder, scene).err) == 0);  // shown at rest
     CHECK(count_of(warning, render(folder, scene, {"--frames", "2"}).err) == 1);
@@ -146,7 +147,8 @@ TEST_CASE("the camera option takes a name before an index", "[app]") {
     CHECK(index_of(scene("left", "right"), "0") == "0");
     CHECK(index_of(scene("left", "right"), "1") == "1");
     CHECK(index_of(scene("left", "0"), "0") == "1");
-    check_refusal(render(folder, scene("left", "right"), {"--camera", "2"}), 2, {"no camera '2'", "0 'left', 1 'right'"});
+    check_refusal(render(folder, scene("left", "right"), {"--camera", "2"}), 2,
+                  {"no camera '2'", "0 'left', 1 'right'"});
     check_refusal(render(folder, scene("left", "right"), {"--camera", "lefd"}), 2, {"did you mean 'left'?"});
     const std::string bare = write_triangle(folder, R"([{"mesh":0}])", emissive);
     CHECK(render(folder, bare, {"--camera", "0"}).exit_code == 0);  // the one that frames the scene
@@ -166,9 +168,12 @@ TEST_CASE("a near miss of a file name is suggested", "[app]") {
     std::filesystem::create_directories(folder.path() / "pictures");
     write_text(folder.file("studio.hdr"), "");
     const auto meant = [&](const char* name) { return "did you mean '" + folder.file(name) + "'?"; };
-    check_refusal(render(folder, folder.file("trangle.gltf")), 2, {"trangle.gltf", "no such file", meant("triangle.gltf")});
-    check_refusal(render(folder, scene, {"--env", folder.file("studoi.hdr")}), 2, {"no such file", meant("studio.hdr")});
-    check_refusal(render(folder, scene, {"-o", folder.file("picturs/out.exr")}), 2, {"does not exist", meant("pictures")});
+    check_refusal(render(folder, folder.file("trangle.gltf")), 2,
+                  {"trangle.gltf", "no such file", meant("triangle.gltf")});
+    check_refusal(render(folder, scene, {"--env", folder.file("studoi.hdr")}), 2,
+                  {"no such file", meant("studio.hdr")});
+    check_refusal(render(folder, scene, {"-o", folder.file("picturs/out.exr")}), 2,
+                  {"does not exist", meant("pictures")});
     REQUIRE(render(folder, scene).exit_code == 0);
     check_refusal(run_diptych(folder, {"compare", folder.file("out.exr"), folder.file("oud.exr")}), 2,
                   {"no such file", meant("out.exr")});

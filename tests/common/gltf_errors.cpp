@@ -188,7 +188,8 @@ TEST_CASE("a member of a wrong type is refused by its JSON pointer", "[gltf]") {
     refused(R"("nodes":[{"mesh":4294967296}])", "/nodes/0/mesh", "is no index");
     refused(R"("meshes":[{"primitives":[{"attributes":{"POSITION":4294967296}}]}])",
             "/meshes/0/primitives/0/attributes/POSITION", "is no index");
-    refused(R"("meshes":[{"primitives":[{"attributes":{},"mode":4.5}]}])", "/meshes/0/primitives/0/mode", "is no integer");
+    refused(R"("meshes":[{"primitives":[{"attributes":{},"mode":4.5}]}])", "/meshes/0/primitives/0/mode",
+            "is no integer");
     refused(R"("bufferViews":[{"buffer":0,"byteLength":4,"byteStride":-4}])", "/bufferViews/0/byteStride",
             "is no whole number from 0 up");
     refused(R"("bufferViews":[{"buffer":0,"byteLength":4,"byteOffset":0.5}])", "/bufferViews/0/byteOffset",
@@ -202,7 +203,8 @@ TEST_CASE("a member of a wrong type is refused by its JSON pointer", "[gltf]") {
 TEST_CASE("whole numbers may be written with a point", "[gltf]") {
     GltfBuilder builder;
     builder.triangle();
-    const std::string mesh = R"("nodes":[{"mesh":0.0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0.0},"mode":4.0}]}])";
+    const std::string mesh =
+        R"("nodes":[{"mesh":0.0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0.0},"mode":4.0}]}])";
     const TemporaryFolder folder;
     CHECK(load_gltf(folder.write("points.gltf", builder.text(mesh))).instances.size() == 1);
 }
@@ -230,16 +232,18 @@ TEST_CASE("files outside the scene's folder are read only where that is allowed,
     folder.write("out.bin", raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}));
     folder.write("scenes/in.bin", raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}));
     const auto scene = [&](const std::string& uri) {
+        const std::string mesh = one_mesh(R"("attributes":{"POSITION":0})");
         return folder.write("scenes/scene.gltf",
-                            root(one_mesh(R"("attributes":{"POSITION":0})") + R"(,"buffers":[{"byteLength":36,"uri":")" +
-                                 uri + R"("}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
-                                       R"("componentType":5126,"type":"VEC3","count":3}])"));
+                            root(mesh + R"(,"buffers":[{"byteLength":36,"uri":")" + uri +
+                                 R"("}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+                                 R"("componentType":5126,"type":"VEC3","count":3}])"));
     };
     CHECK_NOTHROW(load_gltf(scene("deep/../in.bin")));
     GltfOptions external;
     external.allow_external = true;
-    for (const std::string& uri : {std::string("../out.bin"), std::string("deep/../../out.bin"), std::string("%2E%2E/out.bin"),
-                                  (folder.path() / "out.bin").string()}) {
+    const std::string absolute = (folder.path() / "out.bin").string();
+    const std::vector<std::string> uris = {"../out.bin", "deep/../../out.bin", "%2E%2E/out.bin", absolute};
+    for (const std::string& uri : uris) {
         INFO(uri);
         CHECK_THAT(refusal(scene(uri)), Catch::Contains("buffers[0].uri") && Catch::Contains("--allow-external"));
         CHECK_NOTHROW(load_gltf(scene(uri), external));

@@ -127,7 +127,8 @@ TEST_CASE("a node moves with an animated ancestor that the scene does not list",
     Scene scene = load_gltf(folder.write(
         "scene.gltf",
         builder.text(R"("scenes":[{"nodes":[1]}],"nodes":[{"children":[1]},{"mesh":0,"translation":[0,2,0]}],)"
-                     R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"animations":[{"samplers":[{"input":)" +
+                     R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                     R"("animations":[{"samplers":[{"input":)" +
                      std::to_string(times) + R"(,"output":)" + std::to_string(path) +
                      R"(}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}])")));
     pose_scene(scene, 0.5);
@@ -253,7 +254,8 @@ TEST_CASE("strictly read, faulty keyframes are refused though nothing plays", "[
     CHECK_THAT(clip_warnings(early).lines().at(0), Catch::Contains("keys before 0 s"));
     pose_scene(early, 0);
     CHECK(std::abs(early.instances.at(0).object_to_world[3].x - 0.2) < 1e-6);
-    CHECK_THAT(strict_refusal(folder / "an_t_neg.glb"), Catch::Contains("animations[0]") && Catch::Contains("before 0 s"));
+    CHECK_THAT(strict_refusal(folder / "an_t_neg.glb"),
+               Catch::Contains("animations[0]") && Catch::Contains("before 0 s"));
 
     Scene clips = load_gltf(folder / "an_clips.glb");
     play_all_clips(clips);

@@ -22,7 +22,9 @@ TEST_CASE("a path is mended at the first part that is missing", "[near-miss]") {
     folder.write("scenes/helmet.glb", "");
     folder.write("scens.txt", "");  // no folder
     const auto meant = [&](const char* name) { return did_you_mean_file(folder.path() / name); };
-    const auto suggested = [&](const char* name) { return " (did you mean '" + (folder.path() / name).string() + "'?)"; };
+    const auto suggested = [&](const char* name) {
+        return " (did you mean '" + (folder.path() / name).string() + "'?)";
+    };
     CHECK(meant("studio.hrd") == suggested("studio.hdr"));
     CHECK(meant("scenes/helmt.glb") == suggested("scenes/helmet.glb"));
     CHECK(meant("scens/helmet.glb") == suggested("scenes"));

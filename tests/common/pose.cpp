@@ -251,7 +251,8 @@ TEST_CASE("keys of splines are sorted with their tangents", "[animation]") {
     // From x = 0 to x = 1, leaving at a speed of 3 and arriving at rest: at half the way 0.5 + 3 / 8.
     const int path = file.builder.floats({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0}, "VEC3", 6);
     file.animation = R"("samplers":[{"input":)" + std::to_string(input) + R"(,"output":)" + std::to_string(path) +
-                     R"(,"interpolation":"HERMITE"}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}])";
+                     R"(,"interpolation":"HERMITE"}],)"
+                     R"("channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}])";
     Scene scene = file.load();
     CHECK(scene.animations.at(0).warnings.size() == 2);
     CHECK_THAT(scene.animations[0].warnings.lines()[0], Catch::Contains("taken as CUBICSPLINE"));
