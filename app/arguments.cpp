@@ -88,7 +88,8 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
     command.add_option("--clip", request.clip,
                        "Animation to play, by name or index (see info); all by default, and of two for one node the first");
     command.add_option("--env", request.environment,
-                       "Light from infinity: R,G,B radiance, or a .hdr or .exr panorama, of which FILE:LAYER is one layer or part");
+                       "Light from infinity: none, neutral, R,G,B radiance, or a .hdr or .exr panorama, of which FILE:LAYER is one "
+                       "layer or part; neutral by default where the scene would be black");
     command.add_option("--env-scale", request.environment_scale, "Factor on that light")->check(non_negative_number());
     command.add_option("--env-rotate", request.environment_rotation, "Degrees it is turned about +Y")
         ->check(finite_number());

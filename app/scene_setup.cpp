@@ -12,12 +12,12 @@
 
 #include "error.h"
 #include "image/near_miss.h"
-#include "pack/features.h"
 #include "report.h"
 #include "scene/clips.h"
 #include "scene/default_camera.h"
 #include "scene/environment_load.h"
 #include "scene/gltf_import.h"
+#include "scene/own_light.h"
 
 namespace diptych::app {
 
@@ -65,12 +65,22 @@ Environment requested_environment(const std::string& text, Warnings& warnings) {
     return environment;
 }
 
-void find_environment(Scene& scene, const RenderRequest& request) {
-    if (!request.environment.empty()) {
-        scene.environment = requested_environment(request.environment, scene.warnings);
-    } else if (!has_light(scene) && !request.sun) {
+/// The request's environment. Without one, a neutral sky where the scene would come out black: the one place that
+/// decides so, for every command.
+void find_environment(Scene& scene, RenderRequest& request) {
+    request.adds_neutral_sky = false;
+    if (request.environment == no_environment) {
+        scene.environment = {};
+    } else if (request.environment == neutral_environment) {
         scene.environment = neutral_sky();
-        scene.warnings.add("the scene has no light: lit by a neutral sky", scene.name);
+    } else if (!request.environment.empty()) {
+        scene.environment = requested_environment(request.environment, scene.warnings);
+    } else if (const OwnLight light = request.sun ? OwnLight::enough : own_light(scene); light != OwnLight::enough) {
+        scene.environment = neutral_sky();
+        request.adds_neutral_sky = true;
+        const char* reason =
+            light == OwnLight::absent ? "the scene has no light" : "what emits in the scene is too weak to light it";
+        scene.warnings.add(fmt::format("{}: lit by a neutral sky (--env none leaves it out)", reason), scene.name);
     }
 }
 
@@ -124,20 +134,6 @@ void choose_clips(Scene& scene, const RenderRequest& request) {
 }
 
 }  // namespace
-
-bool has_light(const Scene& scene) {
-    if (!scene.lights.empty() || scene.environment.kind != Environment::Kind::none) {
-        return true;
-    }
-    for (const Instance& instance : scene.instances) {
-        for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
-            if (emits(scene.materials[static_cast<std::size_t>(primitive.material)])) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
 
 Scene load_requested(RenderRequest& request) {
     Scene scene = load_gltf(request.scene, {request.ignored_extensions, request.strict, request.allow_external});

@@ -7,8 +7,8 @@
 namespace diptych::app {
 
 /// Loads the scene, chooses its clips, puts the environment, the sun, the camera, its lens and the size in place, and
-/// reports the warnings, once each. Without any light it gets a neutral sky, without a camera one that frames it, both
-/// with a warning. Throws Error.
+/// reports the warnings, once each. Where its own light leaves it black it gets a neutral sky, without a camera one that
+/// frames it, both with a warning. Throws Error.
 Scene prepare_scene(RenderArguments& arguments);
 
 /// Reports the warnings of the clips that play, for a command that plays them. Throws Error instead where the request
@@ -23,8 +23,5 @@ Scene load_requested(RenderRequest& request);
 /// moment. Throws Error.
 void place_lights(const Scene& loaded, const RenderRequest& request, Scene& scene);
 void place_camera(const RenderRequest& request, Scene& scene);
-
-/// Whether anything in it emits.
-bool has_light(const Scene& scene);
 
 }  // namespace diptych::app

@@ -57,6 +57,7 @@ void FrameLoop::adopt(LoadedScene scene) {
     RenderRequest& request = state_.rendered.request;
     request.scene = scene_.request.scene;
     request.environment = scene_.request.environment;
+    request.adds_neutral_sky = scene_.request.adds_neutral_sky;
     request.camera = scene_.request.camera;
     request.viewpoint = scene_.request.viewpoint;
     if (scene_.scene->environment.kind == EnvironmentKind::none) {

@@ -99,8 +99,8 @@ void add_picture_options(std::string& command, const RenderRequest& request) {
     if (!request.camera.empty()) {
         add_option(command, "--camera", request.camera);
     }
-    if (!request.environment.empty()) {
-        add_option(command, "--env", request.environment);
+    if (const std::string environment = used_environment(request); !environment.empty()) {
+        add_option(command, "--env", environment);
     }
     if (request.environment_scale != 1) {
         add_option(command, "--env-scale", request.environment_scale);
@@ -205,7 +205,7 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("clip", request.clip);
     add("camera", request.camera);
     add("camera_index", settings.camera);
-    add("environment", request.environment);
+    add("environment", used_environment(request));
     add("environment_scale", request.environment_scale);
     add("environment_rotation", request.environment_rotation);
     add("eye", triple(request.viewpoint.eye));

@@ -12,6 +12,10 @@
 
 namespace diptych {
 
+/// Environments by name.
+inline constexpr const char* no_environment = "none";
+inline constexpr const char* neutral_environment = "neutral";
+
 struct RenderRequest {
     std::string scene;                            // file
     std::vector<std::string> ignored_extensions;  // required by the file, lacking here, and done without
@@ -23,7 +27,8 @@ struct RenderRequest {
     std::string oracle_mode = "mis";              // oracle: mis, bsdf, hemisphere or area
     std::string device;                           // vulkan: index or name; empty is the best
     std::string camera;                           // name or index; empty is the first
-    std::string environment;                      // "R,G,B" or a file; empty is the scene's own
+    std::string environment;                      // none, neutral, "R,G,B" or a file; empty: as the scene needs
+    bool adds_neutral_sky = false;                // what an empty environment came to
     double environment_scale = 1;
     double environment_rotation = 0;       // degrees
     std::optional<double> lens_radius;     // metres
@@ -46,6 +51,11 @@ struct RenderRequest {
     double orbit = 0;           // degrees a frame that the camera turns: degrees * fps * time in all
     RenderSettings settings;
 };
+
+/// The environment that lights the picture, as --env would name it; empty where the scene lights itself.
+inline std::string used_environment(const RenderRequest& request) {
+    return request.adds_neutral_sky ? neutral_environment : request.environment;
+}
 
 /// Seconds of the scene's animations at which the request's first kept frame stands.
 inline double shown_at(const RenderRequest& request) {

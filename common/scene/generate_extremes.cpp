@@ -107,6 +107,7 @@ GeneratedScene generate_extreme_near_lamp(const GenerateOptions&) {
     add_object(scene, "plane", {level(glm::vec3(0), 1, true, grey)});
     add_object(scene, "lamp", {level({0, 1e-3F, 0}, 2e-3F, false, lamp)});
     scene.cameras.push_back(make_camera("camera", {0, 4e-4, 0.012}, {0, 0, 0}, 30));
+    out.recommended_arguments = "--env none";  // dark but for a few square millimetres
     return out;
 }
 

@@ -2,21 +2,9 @@
 
 #include <cstdlib>
 
-#include "pack/features.h"
+#include "scene/own_light.h"
 
 namespace diptych::tests {
-namespace {
-
-bool brings_light(const Scene& scene) {
-    bool emissive = false;
-    for (const Material& material : scene.materials) {
-        emissive = emissive || emits(material);
-    }
-    return emissive || !scene.lights.empty() || scene.environment.kind != Environment::Kind::none;
-}
-
-}  // namespace
-
 Film render_vulkan(const PackedScene& packed, std::uint32_t spp) {
     Film film;
     {
@@ -34,7 +22,7 @@ Film render_vulkan(const Scene& scene, const RenderSettings& settings, std::uint
 }
 
 void complete_scene(Scene& scene) {
-    if (!brings_light(scene)) {
+    if (own_light(scene) != OwnLight::enough) {
         scene.environment = neutral_sky();
     }
     if (scene.cameras.empty()) {
