@@ -61,6 +61,26 @@ CLI::Validator number_between(double least, double most) {
                        [least, most](double x) { return x >= least && x <= most; });
 }
 
+CLI::Validator accepted_by(const SettingRange& range) {
+    const auto [least, most] = range.accepted;
+    if (most < ranges::unlimited) {
+        return number_between(least, most).description(fmt::format("in [{} - {}]", least, most));
+    }
+    return least > 0 ? positive_number() : least == 0 ? non_negative_number() : finite_number();
+}
+
+std::string option_of(const SettingRange& range) {
+    return std::string("--") + range.name;
+}
+
+void add_display_options(CLI::App& command, double& exposure, std::string& tonemap, const char* of) {
+    command.add_option(option_of(ranges::exposure), exposure, fmt::format("EV, powers of two; {}", of))
+        ->check(accepted_by(ranges::exposure))
+        ->capture_default_str();
+    command.add_option("--tonemap", tonemap, fmt::format("none, exponential, uncharted2, aces or pbr-neutral; {}", of))
+        ->capture_default_str();
+}
+
 void add_integrator_option(CLI::App& command, RenderArguments& arguments) {
     arguments.panel_options.push_back(
         command
@@ -79,8 +99,10 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
         command.add_option("--sampler", arguments.sampler, "independent, hammersley or sobol")->capture_default_str());
     arguments.panel_options.push_back(
         command.add_option("--mis", arguments.mis, "Weights of path: power or balance")->capture_default_str());
-    command.add_option("--max-depth", request.settings.max_depth, "Scattering events; 1 is emission and direct light")
-        ->check(CLI::Range(0, 65535))
+    command
+        .add_option(option_of(ranges::max_depth), request.settings.max_depth,
+                    "Scattering events; 1 is emission and direct light")
+        ->check(accepted_by(ranges::max_depth))
         ->capture_default_str();
     command.add_option("--size", arguments.size,
                        "WIDTHxHEIGHT in pixels, or a height: the camera's aspect gives the width");
@@ -90,11 +112,13 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
     command.add_option("--env", request.environment,
                        "Light from infinity: none, neutral, R,G,B radiance, or a .hdr or .exr panorama, of which FILE:LAYER is one "
                        "layer or part; neutral by default where the scene would be black");
-    command.add_option("--env-scale", request.environment_scale, "Factor on that light")->check(non_negative_number());
-    command.add_option("--env-rotate", request.environment_rotation, "Degrees it is turned about +Y")
-        ->check(finite_number());
-    command.add_option("--aperture", request.lens_radius, "Radius of the lens, metres")->check(non_negative_number());
-    command.add_option("--focus", request.focus_distance, "Distance in focus, metres")->check(positive_number());
+    const auto add = [&](const SettingRange& range, auto& value, const char* help) {
+        command.add_option(option_of(range), value, help)->check(accepted_by(range));
+    };
+    add(ranges::env_scale, request.environment_scale, "Factor on that light");
+    add(ranges::env_rotate, request.environment_rotation, "Degrees it is turned about +Y");
+    add(ranges::aperture, request.lens_radius, "Radius of the lens, metres");
+    add(ranges::focus, request.focus_distance, "Distance in focus, metres");
     add_viewpoint_options(command, arguments);
     command
         .add_option("--ignore-extension", request.ignored_extensions,

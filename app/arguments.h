@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/render_request.h"
+#include "render/setting_ranges.h"
 #include "scene/scene.h"
 
 namespace CLI {
@@ -36,6 +37,10 @@ CLI::Validator finite_number();
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
 CLI::Validator number_between(double least, double most);
+CLI::Validator accepted_by(const SettingRange& range);
+
+/// "--" and the setting's name.
+std::string option_of(const SettingRange& range);
 
 void add_integrator_option(CLI::App& command, RenderArguments& arguments);
 
@@ -64,6 +69,9 @@ void refuse_resampling(const char* option, Integrator integrator, const char* co
 
 /// Throws Error where an option of resampling was given and nothing will resample.
 void refuse_idle_resampling_options(const RenderArguments& arguments, bool resampled);
+
+/// How a picture with 8 bits a channel is made: --exposure and --tonemap. `of` ends their help.
+void add_display_options(CLI::App& command, double& exposure, std::string& tonemap, const char* of);
 
 /// Names to values, and options that contradict the backend refused. Throws Error naming the option.
 void resolve_names(RenderArguments& arguments);

@@ -39,7 +39,7 @@ struct CompareOptions {
     std::vector<std::string> minus;  // empty, or one for each
     std::string output;
     double exposure = 0;
-    std::string tonemap = "none";
+    std::string tonemap = tonemap_name(default_tonemap);
     std::optional<double> heat_max;
     std::optional<double> max_z;
     std::optional<double> max_relmse;
@@ -260,11 +260,7 @@ void add_compare(CLI::App& app, Run& run) {
         ->delimiter(',')
         ->expected(2);
     command->add_option("-o,--output", options->output, "Figure to write, .png");
-    command->add_option("--exposure", options->exposure, "EV of the figure")
-        ->check(CLI::Range(-100.0, 100.0))
-        ->check(finite_number());
-    command->add_option("--tonemap", options->tonemap,
-                        "Of the figure: none, exponential, uncharted2, aces or pbr-neutral");
+    add_display_options(*command, options->exposure, options->tonemap, "of the figure");
     command->add_option("--heat-max", options->heat_max, "Relative difference at the heatmap's hot end")
         ->check(positive_number());
     command->add_option("--max-z", options->max_z, "Exit 1 where |z| is larger in a channel")

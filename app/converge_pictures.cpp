@@ -37,7 +37,7 @@ Image thinned(const Image& image, int largest_side) {
 }
 
 Image shown(const Image& color, double exposure, int largest_side) {
-    return thinned(tonemapped(color, ToneMap::PbrNeutral, static_cast<float>(exposure)), largest_side);
+    return thinned(tonemapped(color, default_tonemap, static_cast<float>(exposure)), largest_side);
 }
 
 /// The relative error of each pixel in steps of a sixth of a decade: few colours make a small file.

@@ -182,11 +182,7 @@ void add_render(CLI::App& app, Run& run) {
     add_scene_options(*command, options->arguments);
     add_backend_options(*command, options->arguments);
     add_oracle_option(*command, options->arguments);
-    command->add_option("--exposure", request.exposure, "EV, powers of two; for .png")
-        ->check(CLI::Range(-100.0, 100.0))
-        ->check(finite_number());
-    command->add_option("--tonemap", request.tonemap, "none, exponential, uncharted2, aces or pbr-neutral; for .png")
-        ->capture_default_str();
+    add_display_options(*command, request.exposure, request.tonemap, "for .png");
     options->layers_option = command->add_flag("--layers,!--no-layers", options->layers,
                                                "Write the layers beside colour; .exr only, on by default");
     command->add_option(

@@ -4,7 +4,6 @@
 #include "arguments.h"
 #include "error.h"
 #include "render/settings_names.h"
-#include "scene_types.h"
 
 namespace diptych::app {
 
@@ -15,25 +14,23 @@ void add_resampling_options(CLI::App& command, RenderArguments& arguments) {
         arguments.resampling_options.push_back(option);
         return option->group("Resampling (ris, restir)")->capture_default_str();
     };
+    const auto add_number = [&](const SettingRange& range, auto& value, const char* help) {
+        add(option_of(range).c_str(), value, help)->check(accepted_by(range));
+    };
     const auto flag = [&](const char* name, bool& value, const char* help) {
         arguments.resampling_options.push_back(command.add_flag(name, value, help)->group("Resampling (ris, restir)"));
     };
-    add("--candidates", settings.light_candidates, "Light points a pixel and frame, picked among all lights")
-        ->check(CLI::Range(1, 1024));
-    add("--near-share", settings.near_share,
-        "Of them, picked for being close too, by clusters of lights; the rest by power alone")
-        ->check(CLI::Range(0.0, 1.0))
-        ->check(finite_number());
+    add_number(ranges::candidates, settings.light_candidates,
+               "Light points a pixel and frame, picked among all lights");
+    add_number(ranges::near_share, settings.near_share,
+               "Of them, picked for being close too, by clusters of lights; the rest by power alone");
     flag("--bsdf-candidate,!--no-bsdf-candidate", settings.bsdf_candidate,
          "One more by sampling the material, where it is glossy or lamps are close; on by default");
     flag("--temporal,!--no-temporal", settings.temporal, "restir: reuse the frame before; on by default");
-    add("--spatial-passes", settings.spatial_passes, "restir: times that neighbours are reused")
-        ->check(CLI::Range(0, 8));
-    add("--neighbors", settings.neighbors, "restir: of each such pass")
-        ->check(CLI::Range(1U, shared::RESAMPLING_MAX_NEIGHBORS));
-    add("--reuse-radius", settings.radius, "restir: they lie within, pixels")->check(positive_number());
-    add("--confidence-cap", settings.confidence_cap, "restir: of the frame before, in frames")
-        ->check(positive_number());
+    add_number(ranges::spatial_passes, settings.spatial_passes, "restir: times that neighbours are reused");
+    add_number(ranges::neighbors, settings.neighbors, "restir: of each such pass");
+    add_number(ranges::reuse_radius, settings.radius, "restir: they lie within, pixels");
+    add_number(ranges::confidence_cap, settings.confidence_cap, "restir: of the frame before, in frames");
     add("--reuse-mis", arguments.resampling_mis, "restir: pairwise, balance, 1-over-z or biased-1-over-m");
     add("--reuse-visibility", arguments.resampling_visibility, "shading, target, biased-initial or biased-final");
     add("--atlas", arguments.request.settings.atlas_tile,

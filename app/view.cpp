@@ -182,10 +182,7 @@ void add_view(CLI::App& app, Run& run) {
         ->check(CLI::Range(1, 4096));
     command->add_flag("--validation", options->validation,
                       "Run Vulkan's validation layers; exit 1 if they have anything to say");
-    command->add_option("--exposure", request.exposure, "EV, powers of two")->check(number_between(-100, 100));
-    request.tonemap = "aces";
-    command->add_option("--tonemap", request.tonemap, "none, exponential, uncharted2, aces or pbr-neutral")
-        ->capture_default_str();
+    add_display_options(*command, request.exposure, request.tonemap, "of what is shown and saved as .png");
     command->footer(view_examples);
     command->callback([options, &run] { run = [options] { return run_view(*options); }; });
 }

@@ -1,8 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "arguments.h"
 #include "error.h"
 
@@ -29,7 +27,7 @@ CLI::Option* add_triple(CLI::App& command, const char* name, const char* type, c
 }
 
 Sun sun_of(const glm::dvec3& numbers) {
-    if (std::abs(numbers.y) > 90 || numbers.z < 0) {
+    if (!ranges::sun_elevation.accepted.holds(numbers.y) || !ranges::sun_irradiance.accepted.holds(numbers.z)) {
         throw Error(fmt::format("--sun {},{},{}: wants an elevation from -90 to 90 degrees and an irradiance from 0 up",
                                 numbers.x, numbers.y, numbers.z));
     }
@@ -47,10 +45,13 @@ void add_viewpoint_options(CLI::App& command, RenderArguments& arguments) {
                [&](const glm::dvec3& point) { viewpoint.look_at = point; });
     add_triple(command, "--up", "X,Y,Z", "What is up in the picture; 0,1,0 by default",
                [&](const glm::dvec3& direction) { viewpoint.up = direction; });
-    command.add_option("--fov", viewpoint.fov, "Vertical field of view of a perspective camera, degrees")
-        ->check(number_between(0.001, 179));
-    command.add_option("--view-height", viewpoint.view_height, "Height of the view of an orthographic camera, metres")
-        ->check(positive_number());
+    command
+        .add_option(option_of(ranges::fov), viewpoint.fov, "Vertical field of view of a perspective camera, degrees")
+        ->check(accepted_by(ranges::fov));
+    command
+        .add_option(option_of(ranges::view_height), viewpoint.view_height,
+                    "Height of the view of an orthographic camera, metres")
+        ->check(accepted_by(ranges::view_height));
     add_triple(command, "--sun", "AZIMUTH,ELEVATION,IRRADIANCE",
                "A directional light: degrees from -Z toward +X, degrees above the horizon, W/m^2",
                [&](const glm::dvec3& numbers) { request.sun = sun_of(numbers); });

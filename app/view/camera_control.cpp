@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "render/setting_ranges.h"
 #include "scene/pose.h"
 
 namespace diptych::app {
@@ -11,8 +12,8 @@ namespace diptych::app {
 namespace {
 
 constexpr double highest = 89.9 * glm::pi<double>() / 180;  // elevation of the camera's axis
-constexpr double least_fov = glm::pi<double>() / 180;
-constexpr double most_fov = 150 * glm::pi<double>() / 180;
+constexpr double least_fov = ranges::fov.accepted.least * glm::pi<double>() / 180;
+constexpr double most_fov = ranges::fov.accepted.most * glm::pi<double>() / 180;
 
 glm::dvec3 axis(const Camera& camera, int column) {
     return glm::dvec3(camera.camera_to_world[column]);

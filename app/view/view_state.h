@@ -39,7 +39,7 @@ struct ShownState {
     ShownLayer layer = ShownLayer::radiance;
     double divider = 0.5;  // of a split: share of the width that the left panel, the CPU's, takes
     double exposure = 0;   // EV
-    ToneMap tonemap = ToneMap::Aces;
+    ToneMap tonemap = default_tonemap;
     double layer_scale = 0;  // what a layer of numbers shows as full; 0 finds one
 };
 

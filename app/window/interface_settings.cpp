@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <glm/gtc/constants.hpp>
 
+#include "render/settings_names.h"
 #include "scene/default_camera.h"
 #include "view/camera_control.h"
 #include "window/interface_layout.h"
@@ -14,45 +14,53 @@ namespace diptych::app {
 
 namespace {
 
+template <typename Enum>
+bool choose(const Theme& theme, const char* setting, std::initializer_list<Enum> offered, Enum& chosen,
+            const std::string& help) {
+    return setting_choice(theme, setting, offered, [](Enum value) { return name_of(value); }, chosen, help);
+}
+
 void draw_sampling(const Theme& theme, RenderSettings& settings) {
-    slider(theme, "Depth", settings.max_depth, 0, 32, "Scattering events at most; 1 is emission and direct light");
-    choice(theme, "BRDF", {"GGX", "Blinn-Phong"}, settings.brdf, "Microfacets of metallic-roughness materials");
-    choice(theme, "Normal maps", {"shading", "microfacet"}, settings.normal_maps,
+    slider(theme, ranges::max_depth, settings.max_depth,
+           "Scattering events at most; 1 is emission and direct light");
+    choose(theme, "brdf", {BrdfModel::ggx, BrdfModel::blinn_phong}, settings.brdf,
+           "Microfacets of metallic-roughness materials");
+    choose(theme, "normal-maps", {NormalMaps::shading, NormalMaps::microfacet}, settings.normal_maps,
            "Shading by the mapped normal, or facets that keep all energy");
-    int sampler = settings.sampler == SamplerKind::sobol ? 1 : 0;
     // Not Hammersley's points: they are laid out for a number of samples that is known beforehand.
-    const std::array<const char*, 2> samplers = {"independent", "Sobol'"};
-    if (choice(theme, "Sampler", samplers, sampler, "Where random numbers come from")) {
-        settings.sampler = sampler == 1 ? SamplerKind::sobol : SamplerKind::independent;
-    }
+    choose(theme, "sampler", {SamplerKind::independent, SamplerKind::sobol}, settings.sampler,
+           "Where random numbers come from");
     if (settings.integrator == Integrator::path) {
-        choice(theme, "MIS", {"power", "balance"}, settings.mis, "Weights between light and material sampling");
+        choose(theme, "mis", {MisHeuristic::power, MisHeuristic::balance}, settings.mis,
+               "Weights between light and material sampling");
     }
 }
 
 void draw_light(const Theme& theme, const InterfaceFacts& facts, RenderRequest& request) {
     const bool none = facts.scene == nullptr || facts.scene->scene->environment.kind == EnvironmentKind::none;
     ImGui::BeginDisabled(none);
-    logarithmic_slider(theme, "Sky", request.environment_scale, 0, 100, "× %.3g",
-                       "Factor on the light from infinity. Drop a .hdr or .exr to replace it");
-    slider(theme, "Rotation", request.environment_rotation, -180, 180, "%.0f°", "Turns the sky about the vertical");
+    slider(theme, ranges::env_scale, request.environment_scale, "× %.3g",
+           "Factor on the light from infinity. Drop a .hdr or .exr to replace it");
+    slider(theme, ranges::env_rotate, request.environment_rotation, "%.0f°", "Turns the sky about the vertical");
     ImGui::EndDisabled();
     bool shines = request.sun.has_value();
-    if (toggle(theme, "Sun", shines, "A directional light beside the scene's own")) {
+    if (setting_toggle(theme, "sun", shines, "A directional light beside the scene's own")) {
         request.sun = shines ? std::optional<Sun>(Sun{}) : std::nullopt;
     }
     if (request.sun) {
-        slider(theme, "Azimuth", request.sun->azimuth, 0, 360, "%.0f°",
-               "Clockwise from above, from the middle of the sky");
-        slider(theme, "Elevation", request.sun->elevation, -10, 90, "%.0f°", "Above the horizon");
-        logarithmic_slider(theme, "Irradiance", request.sun->irradiance, 0.01, 1000, "%.3g W/m²");
+        slider(theme, ranges::sun_azimuth, request.sun->azimuth, "%.0f°",
+               "First number of --sun. Clockwise from above, from the middle of the sky");
+        slider(theme, ranges::sun_elevation, request.sun->elevation, "%.0f°",
+               "Second number of --sun. Above the horizon");
+        slider(theme, ranges::sun_irradiance, request.sun->irradiance, "%.3g W/m²", "Third number of --sun");
     }
 }
 
 void draw_display(const Theme& theme, ShownState& shown) {
-    slider(theme, "Exposure", shown.exposure, -10, 10, "%+.2f EV", "Powers of two  ( [ and ] )");
-    choice(theme, "Tone map", {"none", "exponential", "Uncharted 2", "ACES", "PBR neutral"}, shown.tonemap,
-           "From radiance to display  (T)");
+    slider(theme, ranges::exposure, shown.exposure, "%+.2f EV", "Powers of two  ( [ and ] )");
+    setting_choice(theme, "tonemap",
+                   {ToneMap::None, ToneMap::Exponential, ToneMap::Uncharted2, ToneMap::Aces, ToneMap::PbrNeutral},
+                   tonemap_name, shown.tonemap, "From radiance to display  (T)");
     const bool colored =
         shown.layer == ShownLayer::radiance || shown.layer == ShownLayer::albedo || shown.layer == ShownLayer::normal;
     if (!colored || shown.panel == ShownPanel::difference) {
@@ -89,18 +97,18 @@ void draw_camera(const Theme& theme, const InterfaceFacts& facts, ViewState& sta
                                 : std::max(glm::length(facts.scene->bounds.hi - facts.scene->bounds.lo), 1e-6);
     const double distance = glm::length(state.pivot - glm::dvec3(camera.camera_to_world[3]));
     if (camera.orthographic) {
-        logarithmic_slider(theme, "Height", camera.orthographic_height, diagonal * 1e-3, diagonal * 10, "%.3g m",
-                           "Of the whole view");
+        slider(theme, ranges::view_height, camera.orthographic_height, "%.3g m", "Of the whole view",
+               NumberRange{diagonal * 1e-3, diagonal * 10});
     } else {
         double degrees = camera.vertical_fov * 180 / glm::pi<double>();
-        if (slider(theme, "Field of view", degrees, 1, 150, "%.1f°", "Vertical")) {
+        if (slider(theme, ranges::fov, degrees, "%.1f°", "Vertical field of view")) {
             set_field_of_view(camera, degrees * glm::pi<double>() / 180, distance);
         }
-        logarithmic_slider(theme, "Aperture", camera.lens_radius, 0, diagonal * 0.1, "%.4g m",
-                           "Radius of the lens; 0 is a pinhole");
+        slider(theme, ranges::aperture, camera.lens_radius, "%.4g m", "Radius of the lens; 0 is a pinhole",
+               NumberRange{0, diagonal * 0.1});
         ImGui::BeginDisabled(camera.lens_radius <= 0);
-        logarithmic_slider(theme, "Focus", camera.focus_distance, diagonal * 1e-3, diagonal * 10, "%.3g m",
-                           "Distance in focus. F focuses on what is under the pointer");
+        slider(theme, ranges::focus, camera.focus_distance, "%.3g m",
+               "Distance in focus. F focuses on what is under the pointer", NumberRange{diagonal * 1e-3, diagonal * 10});
         ImGui::EndDisabled();
     }
     row(theme, "");
@@ -113,30 +121,29 @@ void draw_camera(const Theme& theme, const InterfaceFacts& facts, ViewState& sta
 }  // namespace
 
 void draw_resampling(const Theme& theme, ResamplingSettings& resampling, bool reuses) {
-    slider(theme, "Light draws", resampling.light_candidates, 0, 64, "Candidates from the lights, a pixel and frame");
-    double near = static_cast<double>(resampling.near_share);
-    slider(theme, "Near share", near, 0, 1, "%.2f", "Of them, picked by distance too");
-    resampling.near_share = static_cast<float>(near);
-    toggle(theme, "BSDF draw", resampling.bsdf_candidate, "One more candidate, from the material");
-    choice(theme, "MIS", {"pairwise", "balance", "1/Z", "1/M, biased"}, resampling.mis,
-           "Weights between what is resampled");
-    choice(theme, "Visibility", {"when shading", "in the target", "initial, biased", "final, biased"},
+    slider(theme, ranges::candidates, resampling.light_candidates, "Candidates from the lights, a pixel and frame");
+    slider(theme, ranges::near_share, resampling.near_share, "%.2f", "Of them, picked by distance too");
+    setting_toggle(theme, "bsdf-candidate", resampling.bsdf_candidate, "One more candidate, from the material");
+    choose(theme, "reuse-mis",
+           {ResamplingMis::pairwise, ResamplingMis::balance, ResamplingMis::one_over_z,
+            ResamplingMis::biased_one_over_m},
+           resampling.mis, "Weights between what is resampled");
+    choose(theme, "reuse-visibility",
+           {ResamplingVisibility::shading, ResamplingVisibility::target, ResamplingVisibility::biased_initial,
+            ResamplingVisibility::biased_final},
            resampling.visibility, "Where shadow rays count");
     if (!reuses) {
         return;
     }
-    toggle(theme, "Temporal", resampling.temporal, "Reuse what the frame before has found");
-    double cap = static_cast<double>(resampling.confidence_cap);
+    setting_toggle(theme, "temporal", resampling.temporal, "Reuse what the frame before has found");
     ImGui::BeginDisabled(!resampling.temporal);
-    slider(theme, "M cap", cap, 1, 100, "%.0f", "How much the past may count, in frames");
+    slider(theme, ranges::confidence_cap, resampling.confidence_cap, "%.3g", "How much the past may count, in frames");
     ImGui::EndDisabled();
-    resampling.confidence_cap = static_cast<float>(cap);
-    slider(theme, "Spatial", resampling.spatial_passes, 0, 4, "Passes that reuse what neighbours have found");
+    slider(theme, ranges::spatial_passes, resampling.spatial_passes,
+           "Passes that reuse what neighbours have found");
     ImGui::BeginDisabled(resampling.spatial_passes == 0);
-    slider(theme, "Neighbours", resampling.neighbors, 1, 16);
-    double radius = static_cast<double>(resampling.radius);
-    slider(theme, "Radius", radius, 1, 64, "%.0f px");
-    resampling.radius = static_cast<float>(radius);
+    slider(theme, ranges::neighbors, resampling.neighbors, "Of each such pass");
+    slider(theme, ranges::reuse_radius, resampling.radius, "%.3g px", "They lie within");
     ImGui::EndDisabled();
 }
 

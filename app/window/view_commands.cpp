@@ -1,5 +1,9 @@
 #include "window/view_commands.h"
 
+#include <algorithm>
+
+#include "render/setting_ranges.h"
+
 namespace diptych::app {
 
 namespace {
@@ -15,6 +19,10 @@ constexpr int layer_count = 10;
 constexpr int integrator_count = 5;
 constexpr int tonemap_count = 5;
 constexpr double exposure_step = 0.25;  // EV
+
+void set_exposure(ShownState& shown, double exposure) {
+    shown.exposure = std::clamp(exposure, ranges::exposure.accepted.least, ranges::exposure.accepted.most);
+}
 
 }  // namespace
 
@@ -49,10 +57,10 @@ void run_command(Command command, bool both, ViewState& state, InterfaceState& i
         step_through(shown.tonemap, 1, tonemap_count);
         break;
     case Command::brighter:
-        shown.exposure += exposure_step;
+        set_exposure(shown, shown.exposure + exposure_step);
         break;
     case Command::darker:
-        shown.exposure -= exposure_step;
+        set_exposure(shown, shown.exposure - exposure_step);
         break;
     case Command::play:
         state.animation.playing = !state.animation.playing && state.animation.duration > 0;

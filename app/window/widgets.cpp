@@ -92,14 +92,51 @@ bool logarithmic_slider(const Theme& theme, const char* label, double& value, do
     return number(theme, label, value, least, most, format, help, ImGuiSliderFlags_Logarithmic);
 }
 
-bool slider(const Theme& theme, const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
-            const char* help) {
-    row(theme, label, help);
-    ImGui::PushID(label);
-    const bool changed =
-        ImGui::SliderScalar("##count", ImGuiDataType_U32, &value, &least, &most, "%u", ImGuiSliderFlags_AlwaysClamp);
+namespace {
+
+ImGuiSliderFlags flags_of(const SettingRange& setting) {
+    return setting.scale == SliderScale::logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
+}
+
+void setting_row(const Theme& theme, const char* setting, const std::string& help) {
+    row(theme, label_of(setting).c_str(), ("--" + std::string(setting) + "\n" + help).c_str());
+}
+
+/// Not clamped to what the slider spans: a typed number may be any that is accepted.
+template <typename Number>
+bool setting_slider(const Theme& theme, const SettingRange& setting, ImGuiDataType type, Number& value,
+                    const NumberRange& span, const char* format, const std::string& help) {
+    setting_row(theme, setting.name, help);
+    ImGui::PushID(setting.name);
+    const auto least = static_cast<Number>(span.least);
+    const auto most = static_cast<Number>(span.most);
+    Number next = value;
+    const bool changed = ImGui::SliderScalar("##number", type, &next, &least, &most, format, flags_of(setting));
     ImGui::PopID();
+    if (changed) {
+        value = static_cast<Number>(nearest_accepted(setting, static_cast<double>(next), static_cast<double>(value)));
+    }
     return changed;
+}
+
+}  // namespace
+
+bool slider(const Theme& theme, const SettingRange& setting, double& value, const char* format, const std::string& help,
+            const std::optional<NumberRange>& span) {
+    return setting_slider(theme, setting, ImGuiDataType_Double, value, span.value_or(setting.slider), format, help);
+}
+
+bool slider(const Theme& theme, const SettingRange& setting, float& value, const char* format,
+            const std::string& help) {
+    return setting_slider(theme, setting, ImGuiDataType_Float, value, setting.slider, format, help);
+}
+
+bool slider(const Theme& theme, const SettingRange& setting, std::uint32_t& value, const std::string& help) {
+    return setting_slider(theme, setting, ImGuiDataType_U32, value, setting.slider, "%u", help);
+}
+
+bool setting_toggle(const Theme& theme, const char* setting, bool& value, const std::string& help) {
+    return toggle(theme, label_of(setting).c_str(), value, ("--" + std::string(setting) + "\n" + help).c_str());
 }
 
 bool toggle(const Theme& theme, const char* label, bool& value, const char* help) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "render/setting_ranges.h"
 #include "window/theme.h"
 
 namespace diptych::app {
@@ -19,23 +22,38 @@ void row(const Theme& theme, const char* label, const char* help = nullptr);
 bool choice(const Theme& theme, const char* label, std::span<const char* const> names, int& chosen,
             const char* help = nullptr);
 
-/// The same for an enum whose values count from 0.
-template <typename Enum>
-bool choice(const Theme& theme, const char* label, std::initializer_list<const char*> names, Enum& chosen,
-            const char* help = nullptr) {
-    int index = static_cast<int>(chosen);
-    const bool changed = choice(theme, label, std::span<const char* const>(names.begin(), names.size()), index, help);
-    chosen = static_cast<Enum>(index);
-    return changed;
-}
-
 /// Rows with numbers. Double click or Ctrl+click on one types a number.
 bool slider(const Theme& theme, const char* label, double& value, double least, double most, const char* format,
             const char* help = nullptr);
 bool logarithmic_slider(const Theme& theme, const char* label, double& value, double least, double most,
                         const char* format, const char* help = nullptr);
-bool slider(const Theme& theme, const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
-            const char* help = nullptr);
+
+/// Rows with a setting: the command line's name as label, in the help the option, and the range that the renderer
+/// accepts. `span` is what the slider spans where the scene's size decides that.
+bool slider(const Theme& theme, const SettingRange& setting, double& value, const char* format, const std::string& help,
+            const std::optional<NumberRange>& span = {});
+bool slider(const Theme& theme, const SettingRange& setting, float& value, const char* format, const std::string& help);
+bool slider(const Theme& theme, const SettingRange& setting, std::uint32_t& value, const std::string& help);
+bool setting_toggle(const Theme& theme, const char* setting, bool& value, const std::string& help);
+
+/// A choice among `offered`, by the command line's names.
+template <typename Enum, typename NameOf>
+bool setting_choice(const Theme& theme, const char* setting, std::initializer_list<Enum> offered, const NameOf& name,
+                    Enum& chosen, const std::string& help) {
+    std::vector<const char*> names;
+    int index = 0;
+    for (const Enum value : offered) {
+        index = value == chosen ? static_cast<int>(names.size()) : index;
+        names.push_back(name(value));
+    }
+    const std::string full_help = "--" + std::string(setting) + "\n" + help;
+    const bool changed = choice(theme, label_of(setting).c_str(), names, index, full_help.c_str());
+    if (changed) {
+        chosen = *(offered.begin() + index);
+    }
+    return changed;
+}
+
 bool toggle(const Theme& theme, const char* label, bool& value, const char* help = nullptr);
 
 /// Buttons in one, of which one is down; true where `chosen` has changed. `width` is that of all.

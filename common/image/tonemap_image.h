@@ -11,6 +11,9 @@ namespace diptych {
 /// The values are those of the shared header.
 enum class ToneMap : uint32_t { None = 0, Exponential = 1, Uncharted2 = 2, Aces = 3, PbrNeutral = 4 };
 
+/// Of every picture and view that asks for no other. It keeps the colours of what is no brighter than white paper.
+inline constexpr ToneMap default_tonemap = ToneMap::PbrNeutral;
+
 /// none, exponential, uncharted2, aces or pbr-neutral; anything else is an Error that lists them.
 ToneMap tonemap_from_name(std::string_view name);
 const char* tonemap_name(ToneMap op);

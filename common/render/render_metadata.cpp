@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "render/setting_ranges.h"
 #include "render/settings_names.h"
 
 namespace diptych {
@@ -31,8 +32,13 @@ const char* yes_or_no(bool value) {
 }
 
 template <class Value>
-void add_option(std::string& command, const char* option, const Value& value) {
+void add_option(std::string& command, const std::string& option, const Value& value) {
     command += fmt::format(" {} {}", option, shell_quoted(fmt::format("{}", value)));
+}
+
+template <class Value>
+void add_option(std::string& command, const SettingRange& range, const Value& value) {
+    add_option(command, std::string("--") + range.name, value);
 }
 
 std::string triple(double x, double y, double z) {
@@ -64,14 +70,14 @@ void add_viewpoint_options(std::string& command, const RenderRequest& request) {
 
 void add_resampling_options(std::string& command, const RenderSettings& settings) {
     const ResamplingSettings& resampling = settings.resampling;
-    add_option(command, "--candidates", resampling.light_candidates);
-    add_option(command, "--near-share", resampling.near_share);
+    add_option(command, ranges::candidates, resampling.light_candidates);
+    add_option(command, ranges::near_share, resampling.near_share);
     command += resampling.bsdf_candidate ? " --bsdf-candidate" : " --no-bsdf-candidate";
     command += resampling.temporal ? " --temporal" : " --no-temporal";
-    add_option(command, "--spatial-passes", resampling.spatial_passes);
-    add_option(command, "--neighbors", resampling.neighbors);
-    add_option(command, "--reuse-radius", resampling.radius);
-    add_option(command, "--confidence-cap", resampling.confidence_cap);
+    add_option(command, ranges::spatial_passes, resampling.spatial_passes);
+    add_option(command, ranges::neighbors, resampling.neighbors);
+    add_option(command, ranges::reuse_radius, resampling.radius);
+    add_option(command, ranges::confidence_cap, resampling.confidence_cap);
     add_option(command, "--reuse-mis", name_of(resampling.mis));
     add_option(command, "--reuse-visibility", name_of(resampling.visibility));
     add_option(command, "--atlas", settings.atlas_tile);
@@ -81,7 +87,7 @@ void add_resampling_options(std::string& command, const RenderSettings& settings
 void add_picture_options(std::string& command, const RenderRequest& request) {
     const RenderSettings& settings = request.settings;
     add_option(command, "--size", fmt::format("{}x{}", settings.width, settings.height));
-    add_option(command, "--max-depth", settings.max_depth);
+    add_option(command, ranges::max_depth, settings.max_depth);
     add_option(command, "--seed", settings.seed);
     add_option(command, "--brdf", name_of(settings.brdf));
     add_option(command, "--normal-maps", name_of(settings.normal_maps));
@@ -103,17 +109,17 @@ void add_picture_options(std::string& command, const RenderRequest& request) {
         add_option(command, "--env", environment);
     }
     if (request.environment_scale != 1) {
-        add_option(command, "--env-scale", request.environment_scale);
+        add_option(command, ranges::env_scale, request.environment_scale);
     }
     if (request.environment_rotation != 0) {
-        add_option(command, "--env-rotate", request.environment_rotation);
+        add_option(command, ranges::env_rotate, request.environment_rotation);
     }
     add_viewpoint_options(command, request);
     if (request.lens_radius) {
-        add_option(command, "--aperture", *request.lens_radius);
+        add_option(command, ranges::aperture, *request.lens_radius);
     }
     if (request.focus_distance) {
-        add_option(command, "--focus", *request.focus_distance);
+        add_option(command, ranges::focus, *request.focus_distance);
     }
 }
 
@@ -152,7 +158,7 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
     if (request.orbit != 0) {
         add_option(command, "--orbit", request.orbit);
     }
-    add_option(command, "--exposure", request.exposure);
+    add_option(command, ranges::exposure, request.exposure);
     add_option(command, "--tonemap", request.tonemap);
     command += settings.first_hit_layers ? " --layers" : " --no-layers";
     command += settings.generic ? " --generic" : "";
@@ -177,7 +183,12 @@ std::string replay_command(const RenderRequest& request, const shared::PathQuery
 std::map<std::string, std::string> render_metadata(const RenderRequest& request, const RenderOutcome& outcome) {
     const RenderSettings& settings = request.settings;
     std::map<std::string, std::string> metadata;
-    const auto add = [&](const char* name, const auto& value) { metadata[name] = fmt::format("{}", value); };
+    const auto add = [&](const std::string& name, const auto& value) { metadata[name] = fmt::format("{}", value); };
+    // By the name that the command line and the view have for the setting; empty where the scene's own counts.
+    const auto add_number = [&](const SettingRange& range, const auto& value) { add(key_of(range.name), value); };
+    const auto add_optional = [&](const SettingRange& range, const std::optional<double>& value) {
+        add_number(range, value ? fmt::format("{}", *value) : std::string());
+    };
     add("program", outcome.program);
     add("command", repeat_command(request, outcome.spp));
     add("scene", request.scene);
@@ -194,35 +205,49 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
         add("generic", yes_or_no(settings.generic));
         add("warm_up", request.warm_up);
         add("correlated", yes_or_no(settings.integrator == Integrator::restir));
+        if (resamples(settings.integrator)) {
+            const ResamplingSettings& resampling = settings.resampling;
+            add_number(ranges::candidates, resampling.light_candidates);
+            add_number(ranges::near_share, resampling.near_share);
+            add("bsdf_candidate", yes_or_no(resampling.bsdf_candidate));
+            add("temporal", yes_or_no(resampling.temporal));
+            add_number(ranges::spatial_passes, resampling.spatial_passes);
+            add_number(ranges::neighbors, resampling.neighbors);
+            add_number(ranges::reuse_radius, resampling.radius);
+            add_number(ranges::confidence_cap, resampling.confidence_cap);
+            add("reuse_mis", name_of(resampling.mis));
+            add("reuse_visibility", name_of(resampling.visibility));
+            add("atlas", settings.atlas_tile);
+        }
     }
     add("spp", outcome.spp);
     add("width", settings.width);
     add("height", settings.height);
-    add("max_depth", settings.max_depth);
+    add_number(ranges::max_depth, settings.max_depth);
     add("seed", settings.seed);
     add("brdf", name_of(settings.brdf));
     add("normal_maps", name_of(settings.normal_maps));
     add("clip", request.clip);
     add("camera", request.camera);
     add("camera_index", settings.camera);
-    add("environment", used_environment(request));
-    add("environment_scale", request.environment_scale);
-    add("environment_rotation", request.environment_rotation);
+    add("env", used_environment(request));
+    add_number(ranges::env_scale, request.environment_scale);
+    add_number(ranges::env_rotate, request.environment_rotation);
     add("eye", triple(request.viewpoint.eye));
     add("look_at", triple(request.viewpoint.look_at));
     add("up", triple(request.viewpoint.up));
-    add("fov", request.viewpoint.fov ? fmt::format("{}", *request.viewpoint.fov) : "");
-    add("view_height", request.viewpoint.view_height ? fmt::format("{}", *request.viewpoint.view_height) : "");
+    add_optional(ranges::fov, request.viewpoint.fov);
+    add_optional(ranges::view_height, request.viewpoint.view_height);
     add("sun", sun_text(request.sun));
-    add("lens_radius", request.lens_radius ? fmt::format("{}", *request.lens_radius) : "");
-    add("focus_distance", request.focus_distance ? fmt::format("{}", *request.focus_distance) : "");
+    add_optional(ranges::aperture, request.lens_radius);
+    add_optional(ranges::focus, request.focus_distance);
     if (request.frames > 0) {
         add("frame", request.frame);
         add("time", shown_at(request));
         add("fps", request.fps);
         add("orbit", request.orbit);
     }
-    add("exposure", request.exposure);
+    add_number(ranges::exposure, request.exposure);
     add("tonemap", request.tonemap);
     add("interrupted", yes_or_no(outcome.interrupted));
     add("uneven", yes_or_no(outcome.uneven));

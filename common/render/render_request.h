@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "image/tonemap_image.h"
 #include "render/settings.h"
 #include "scene/sun.h"
 #include "scene/viewpoint.h"
@@ -36,7 +37,7 @@ struct RenderRequest {
     Viewpoint viewpoint;                   // of the camera; empty is the scene's own
     std::optional<Sun> sun;                // beside the scene's own lights
     double exposure = 0;                   // EV, for output that is tone mapped
-    std::string tonemap = "none";
+    std::string tonemap = tonemap_name(default_tonemap);
     int threads = 0;  // cpu, oracle; 0 is one a core
     bool validation = false;
     bool group_instances = true;  // vulkan; off to measure what it gains

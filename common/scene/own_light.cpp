@@ -14,10 +14,10 @@ constexpr int side = 24;            // pixels of a view
 constexpr int emitter_count = 512;  // points
 constexpr std::size_t most_cameras = 4;
 
-// glTF's emissive factor goes to 1: a brighter material was given a strength, so it is meant as a light. Such a lamp may
-// light a tenth of the view by a thousandth of the sky's light, as at night.
+// glTF's emissive factor goes to 1: a brighter material was given a strength, so it is meant as a light. Such lamps may
+// light a tenth of the view with a hundredth of the sky's light, as at night. With less the picture is black.
 constexpr double lamp_radiance = 1;
-constexpr double least_from_lamps = 1e-3;
+constexpr double least_from_lamps = 1e-2;
 // Emission up to 1 may be a label, a display or a tail light. It has to light half of the view.
 constexpr double least_brightness = 0.25;
 constexpr double least_enclosure = 0.5;

@@ -15,7 +15,7 @@ vulkan veach-mis-brdf "$scenes/veach-mis.gltf" --size 360x240 --spp 64 --max-dep
 vulkan veach-mis-direct "$scenes/veach-mis.gltf" --size 360x240 --spp 64 --max-depth 1 --integrator direct --tonemap aces
 vulkan brdf-grid "$scenes/brdf-grid.gltf" --size 560x400 --spp 8192 --tonemap pbr-neutral
 vulkan brdf-grid-blinn-phong "$scenes/brdf-grid.gltf" --brdf blinn-phong --size 560x400 --spp 8192 --tonemap pbr-neutral
-vulkan furnace "$scenes/furnace.gltf" --size 240x180 --spp 4096 --max-depth 32
+vulkan furnace "$scenes/furnace.gltf" --size 240x180 --spp 4096 --max-depth 32 --tonemap none
 vulkan normal-map "$scenes/normal-map.gltf" --size 480x320 --spp 4096 --tonemap aces
 vulkan normal-map-grazing "$scenes/normal-map.gltf" --camera grazing --size 480x320 --spp 4096 --tonemap aces
 vulkan courtyard "$scenes/courtyard.gltf" --env 1.8,2.1,2.6 --size 576x384 --spp 4096 --tonemap uncharted2

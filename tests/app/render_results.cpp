@@ -7,11 +7,30 @@
 
 #include "image/layered_image.h"
 #include "process.h"
+#include "scene/generate_shapes.h"
+#include "scene/gltf_write.h"
 
 using namespace diptych;
 using namespace diptych::tests;
 
 namespace {
+
+/// A floor of 2 metres and, half a metre above it, a small square that faces it and emits `radiance`.
+std::string write_label(const TemporaryFolder& folder, float radiance) {
+    Scene scene;
+    Primitive floor;
+    floor.material = add_material(scene, make_material("grey", glm::vec3(0.5F), 0, 1));
+    add_quad(floor, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+    add_object(scene, "floor", {floor});
+    Primitive label;
+    label.material = add_material(scene, make_emitter("label", glm::vec3(radiance)));
+    add_quad(label, {-0.05F, 0.5F, -0.05F}, {0.05F, 0.5F, -0.05F}, {0.05F, 0.5F, 0.05F}, {-0.05F, 0.5F, 0.05F});
+    add_object(scene, "label", {label});
+    scene.cameras.push_back(make_camera("camera", {0, 2, 2}, {0, 0, 0}, 60));
+    const std::string file = folder.file("label.gltf");
+    write_gltf(scene, file);
+    return file;
+}
 
 ProcessResult render(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
                      const std::vector<std::string>& more) {
@@ -148,6 +167,55 @@ TEST_CASE("a scene without light or camera is seen under a neutral sky, with a w
     CHECK(read_image(folder.file("out.exr")).color.at(0, 0, 1) == 1.5F);
     render(folder, scene, "out.exr", {"--spp", "1", "--size", "16", "--env", "0,0,0"});
     CHECK(read_image(folder.file("out.exr")).color.at(0, 0, 0) == 0);
+}
+
+TEST_CASE("a label does not switch the neutral sky off, and --env none does", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = write_label(folder, 1);
+    const std::vector<std::string> small = {"--spp", "4", "--size", "16", "--max-depth", "2"};
+    const auto shown = [&](std::vector<std::string> more, std::string& said) {
+        more.insert(more.end(), small.begin(), small.end());
+        said = render(folder, scene, "out.exr", more).err;
+        return read_image(folder.file("out.exr"));
+    };
+    std::string said;
+    const LayeredImage lit = shown({}, said);
+    CHECK(said.find("warning: " + scene + ": what emits in the scene is too weak to light it: lit by a neutral sky") !=
+          std::string::npos);
+    CHECK(said.find("--env none") != std::string::npos);
+    CHECK(lit.color.at(4, 9, 1) > 0.3F);  // the floor
+    CHECK(lit.metadata.at("env") == "neutral");
+    CHECK(lit.metadata.at("command").find("--env neutral") != std::string::npos);
+    const LayeredImage asked = shown({"--env", "neutral"}, said);
+    CHECK(said.find("sky") == std::string::npos);
+    CHECK(asked.color.data == lit.color.data);
+    const LayeredImage dark = shown({"--env", "none"}, said);
+    CHECK(said.find("sky") == std::string::npos);
+    CHECK(dark.color.at(0, 0, 1) == 0);
+    CHECK(dark.metadata.at("env") == "none");
+    const LayeredImage sunny = shown({"--sun", "0,60,1"}, said);  // a light that was asked for is light enough
+    CHECK(said.find("sky") == std::string::npos);
+    CHECK(sunny.metadata.count("env") == 0);
+    write_label(folder, 40);  // and so is a lamp
+    const LayeredImage lamp = shown({}, said);
+    CHECK(said.find("sky") == std::string::npos);
+    CHECK(lamp.color.at(0, 0, 1) == 0);
+    CHECK(lamp.metadata.count("env") == 0);
+}
+
+TEST_CASE("pictures of 8 bits have the default tone map of the view", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const auto picture = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--spp", "2", "--size", "16"});
+        return rendered(folder, scene, "out.png", more).color.data;
+    };
+    CHECK(picture({}) == picture({"--tonemap", "pbr-neutral"}));
+    CHECK(picture({}) != picture({"--tonemap", "none"}));
+    for (const char* command : {"render", "view", "compare"}) {
+        const std::string help = run_diptych(folder, {command, "--help"}).out;
+        CHECK(help.find("--tonemap TEXT=pbr-neutral") != std::string::npos);
+    }
 }
 
 TEST_CASE("a render with --time ends on time", "[app][timed]") {

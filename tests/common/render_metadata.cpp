@@ -23,6 +23,7 @@ RenderRequest request_of_everything() {
     request.device = "1";
     request.camera = "Front view";
     request.environment = "0.1,0.2,0.3";
+    request.tonemap = "aces";
     request.environment_scale = 0.1;
     request.environment_rotation = -30;
     request.lens_radius = 0.01;
@@ -61,11 +62,20 @@ TEST_CASE("the repeating command holds every setting and survives a shell", "[re
                              "--aperture 0.01",    "--eye 1,-2.5,3e-07", "--look-at 0,0.1,0",
                              "--up 0,0,1",         "--fov 33.5",         "--view-height 4",
                              "--sun -20,35.5,3",   "--focus 2.5",        "--exposure -1.5",
-                             "--tonemap none",     "--no-layers",        "--generic",
-                             "--clip 'slow walk'"}) {
+                              "--tonemap aces",     "--no-layers",        "--generic",
+                              "--clip 'slow walk'"}) {
         INFO(part);
         CHECK(contains(command, part));
     }
+}
+
+TEST_CASE("the sky that a scene was given is on record, and repeats the picture whatever decides on it then", "[render]") {
+    RenderRequest request;
+    CHECK(render_metadata(request, {}).at("env").empty());
+    CHECK_FALSE(contains(repeat_command(request, 1), "--env"));
+    request.adds_neutral_sky = true;
+    CHECK(render_metadata(request, {}).at("env") == "neutral");
+    CHECK(contains(repeat_command(request, 1), "--env neutral"));
 }
 
 TEST_CASE("metadata tell how the render went", "[render]") {

@@ -93,6 +93,32 @@ TEST_CASE("A scene that does not load says why and leaves the loader at work", "
     CHECK(loader.loading().empty());
 }
 
+TEST_CASE("A view adds the sky that a render adds, to the scenes that need one", "[view]") {
+    const Folder folder;
+    Scene floor;
+    Primitive level;
+    level.material = add_material(floor, make_material("grey", glm::vec3(0.5F), 0, 1));
+    add_quad(level, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+    Primitive label;  // beside the floor, and as bright as white paper
+    label.material = add_material(floor, make_emitter("label", glm::vec3(1)));
+    add_quad(label, {-0.1F, 0, 1.2F}, {0.1F, 0, 1.2F}, {0.1F, 0, 1.1F}, {-0.1F, 0, 1.1F});
+    add_object(floor, "floor", {level, label});
+    floor.cameras.push_back(make_camera("camera", {0, 2, 2}, {0, 0, 0}, 60));
+    write_gltf(floor, folder.path / "label.gltf");
+    write_gltf(generate_scene("cornell").scene, folder.path / "cornell.gltf");
+    const LoadedScene lit = load_scene(request_of(folder.path / "label.gltf"), 1);
+    CHECK(lit.scene->environment.kind == EnvironmentKind::constant);
+    CHECK(lit.request.adds_neutral_sky);
+    CHECK(lit.request.environment.empty());  // so that another scene, or this one changed, is looked at anew
+    CHECK(lit.scene->warnings.size() == 1);
+    RenderRequest next = lit.request;
+    next.scene = (folder.path / "cornell.gltf").string();
+    const LoadedScene cornell = load_scene(next, 2);
+    CHECK(cornell.scene->environment.kind == EnvironmentKind::none);
+    CHECK(!cornell.request.adds_neutral_sky);
+    CHECK(cornell.scene->warnings.empty());
+}
+
 TEST_CASE("A scene is loaded again once its files have changed and hold still", "[view]") {
     const Folder folder;
     const fs::path file = folder.path / "scene.gltf";
