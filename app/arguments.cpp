@@ -70,7 +70,7 @@ CLI::Validator accepted_by(const SettingRange& range) {
 }
 
 std::string option_of(const SettingRange& range) {
-    return std::string("--") + range.name;
+    return std::string("--") + range.option();
 }
 
 void add_display_options(CLI::App& command, double& exposure, std::string& tonemap, const char* of) {

@@ -39,7 +39,7 @@ CLI::Validator non_negative_number();
 CLI::Validator number_between(double least, double most);
 CLI::Validator accepted_by(const SettingRange& range);
 
-/// "--" and the setting's name.
+/// The option that sets it: "--max-depth".
 std::string option_of(const SettingRange& range);
 
 void add_integrator_option(CLI::App& command, RenderArguments& arguments);

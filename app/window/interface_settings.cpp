@@ -17,12 +17,12 @@ namespace {
 template <typename Enum>
 bool choose(const Theme& theme, const char* setting, std::initializer_list<Enum> offered, Enum& chosen,
             const std::string& help) {
-    return setting_choice(theme, setting, offered, [](Enum value) { return name_of(value); }, chosen, help);
+    return setting_choice(
+        theme, setting, offered, [](Enum value) { return name_of(value); }, chosen, help);
 }
 
 void draw_sampling(const Theme& theme, RenderSettings& settings) {
-    slider(theme, ranges::max_depth, settings.max_depth,
-           "Scattering events at most; 1 is emission and direct light");
+    slider(theme, ranges::max_depth, settings.max_depth, "Scattering events at most; 1 is emission and direct light");
     choose(theme, "brdf", {BrdfModel::ggx, BrdfModel::blinn_phong}, settings.brdf,
            "Microfacets of metallic-roughness materials");
     choose(theme, "normal-maps", {NormalMaps::shading, NormalMaps::microfacet}, settings.normal_maps,
@@ -49,10 +49,10 @@ void draw_light(const Theme& theme, const InterfaceFacts& facts, RenderRequest& 
     }
     if (request.sun) {
         slider(theme, ranges::sun_azimuth, request.sun->azimuth, "%.0f°",
-               "First number of --sun. Clockwise from above, from the middle of the sky");
+               "First of its numbers. Clockwise from above, from the middle of the sky");
         slider(theme, ranges::sun_elevation, request.sun->elevation, "%.0f°",
-               "Second number of --sun. Above the horizon");
-        slider(theme, ranges::sun_irradiance, request.sun->irradiance, "%.3g W/m²", "Third number of --sun");
+               "Second of its numbers. Above the horizon");
+        slider(theme, ranges::sun_irradiance, request.sun->irradiance, "%.3g W/m²", "Third of its numbers");
     }
 }
 
@@ -108,7 +108,8 @@ void draw_camera(const Theme& theme, const InterfaceFacts& facts, ViewState& sta
                NumberRange{0, diagonal * 0.1});
         ImGui::BeginDisabled(camera.lens_radius <= 0);
         slider(theme, ranges::focus, camera.focus_distance, "%.3g m",
-               "Distance in focus. F focuses on what is under the pointer", NumberRange{diagonal * 1e-3, diagonal * 10});
+               "Distance in focus. F focuses on what is under the pointer",
+               NumberRange{diagonal * 1e-3, diagonal * 10});
         ImGui::EndDisabled();
     }
     row(theme, "");
@@ -124,10 +125,10 @@ void draw_resampling(const Theme& theme, ResamplingSettings& resampling, bool re
     slider(theme, ranges::candidates, resampling.light_candidates, "Candidates from the lights, a pixel and frame");
     slider(theme, ranges::near_share, resampling.near_share, "%.2f", "Of them, picked by distance too");
     setting_toggle(theme, "bsdf-candidate", resampling.bsdf_candidate, "One more candidate, from the material");
-    choose(theme, "reuse-mis",
-           {ResamplingMis::pairwise, ResamplingMis::balance, ResamplingMis::one_over_z,
-            ResamplingMis::biased_one_over_m},
-           resampling.mis, "Weights between what is resampled");
+    choose(
+        theme, "reuse-mis",
+        {ResamplingMis::pairwise, ResamplingMis::balance, ResamplingMis::one_over_z, ResamplingMis::biased_one_over_m},
+        resampling.mis, "Weights between what is resampled");
     choose(theme, "reuse-visibility",
            {ResamplingVisibility::shading, ResamplingVisibility::target, ResamplingVisibility::biased_initial,
             ResamplingVisibility::biased_final},
@@ -139,8 +140,7 @@ void draw_resampling(const Theme& theme, ResamplingSettings& resampling, bool re
     ImGui::BeginDisabled(!resampling.temporal);
     slider(theme, ranges::confidence_cap, resampling.confidence_cap, "%.3g", "How much the past may count, in frames");
     ImGui::EndDisabled();
-    slider(theme, ranges::spatial_passes, resampling.spatial_passes,
-           "Passes that reuse what neighbours have found");
+    slider(theme, ranges::spatial_passes, resampling.spatial_passes, "Passes that reuse what neighbours have found");
     ImGui::BeginDisabled(resampling.spatial_passes == 0);
     slider(theme, ranges::neighbors, resampling.neighbors, "Of each such pass");
     slider(theme, ranges::reuse_radius, resampling.radius, "%.3g px", "They lie within");

@@ -98,15 +98,11 @@ ImGuiSliderFlags flags_of(const SettingRange& setting) {
     return setting.scale == SliderScale::logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
 }
 
-void setting_row(const Theme& theme, const char* setting, const std::string& help) {
-    row(theme, label_of(setting).c_str(), ("--" + std::string(setting) + "\n" + help).c_str());
-}
-
 /// Not clamped to what the slider spans: a typed number may be any that is accepted.
 template <typename Number>
 bool setting_slider(const Theme& theme, const SettingRange& setting, ImGuiDataType type, Number& value,
                     const NumberRange& span, const char* format, const std::string& help) {
-    setting_row(theme, setting.name, help);
+    row(theme, label_of(setting.name).c_str(), setting_help(setting.option(), help).c_str());
     ImGui::PushID(setting.name);
     const auto least = static_cast<Number>(span.least);
     const auto most = static_cast<Number>(span.most);
@@ -120,6 +116,10 @@ bool setting_slider(const Theme& theme, const SettingRange& setting, ImGuiDataTy
 }
 
 }  // namespace
+
+std::string setting_help(const char* option, const std::string& help) {
+    return "--" + std::string(option) + "\n" + help;
+}
 
 bool slider(const Theme& theme, const SettingRange& setting, double& value, const char* format, const std::string& help,
             const std::optional<NumberRange>& span) {
@@ -136,7 +136,7 @@ bool slider(const Theme& theme, const SettingRange& setting, std::uint32_t& valu
 }
 
 bool setting_toggle(const Theme& theme, const char* setting, bool& value, const std::string& help) {
-    return toggle(theme, label_of(setting).c_str(), value, ("--" + std::string(setting) + "\n" + help).c_str());
+    return toggle(theme, label_of(setting).c_str(), value, setting_help(setting, help).c_str());
 }
 
 bool toggle(const Theme& theme, const char* label, bool& value, const char* help) {

@@ -28,6 +28,9 @@ bool slider(const Theme& theme, const char* label, double& value, double least, 
 bool logarithmic_slider(const Theme& theme, const char* label, double& value, double least, double most,
                         const char* format, const char* help = nullptr);
 
+/// The option, and under it the help.
+std::string setting_help(const char* option, const std::string& help);
+
 /// Rows with a setting: the command line's name as label, in the help the option, and the range that the renderer
 /// accepts. `span` is what the slider spans where the scene's size decides that.
 bool slider(const Theme& theme, const SettingRange& setting, double& value, const char* format, const std::string& help,
@@ -46,8 +49,7 @@ bool setting_choice(const Theme& theme, const char* setting, std::initializer_li
         index = value == chosen ? static_cast<int>(names.size()) : index;
         names.push_back(name(value));
     }
-    const std::string full_help = "--" + std::string(setting) + "\n" + help;
-    const bool changed = choice(theme, label_of(setting).c_str(), names, index, full_help.c_str());
+    const bool changed = choice(theme, label_of(setting).c_str(), names, index, setting_help(setting, help).c_str());
     if (changed) {
         chosen = *(offered.begin() + index);
     }

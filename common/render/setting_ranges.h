@@ -18,10 +18,13 @@ struct NumberRange {
 enum class SliderScale { linear, logarithmic };
 
 struct SettingRange {
-    const char* name;      // as options have it: words between dashes
+    const char* name;      // words between dashes
     NumberRange accepted;  // by every renderer
     NumberRange slider;    // the part that a slider spans; a typed number may be any that is accepted
     SliderScale scale = SliderScale::linear;
+    const char* list = nullptr;  // option of several numbers, of which this is one; else the name is the option
+
+    constexpr const char* option() const { return list != nullptr ? list : name; }
 };
 
 namespace ranges {
@@ -41,18 +44,20 @@ inline constexpr SettingRange reuse_radius{"reuse-radius", {positive, unlimited}
 inline constexpr SettingRange confidence_cap{"confidence-cap", {positive, unlimited}, {1, 100}};
 inline constexpr SettingRange env_scale{"env-scale", {0, unlimited}, {0, 100}, SliderScale::logarithmic};
 inline constexpr SettingRange env_rotate{"env-rotate", {-unlimited, unlimited}, {-180, 180}};
-inline constexpr SettingRange sun_azimuth{"sun-azimuth", {-unlimited, unlimited}, {0, 360}};
-inline constexpr SettingRange sun_elevation{"sun-elevation", {-90, 90}, {-90, 90}};
-inline constexpr SettingRange sun_irradiance{"sun-irradiance", {0, unlimited}, {0, 1000}, SliderScale::logarithmic};
+inline constexpr SettingRange sun_azimuth{"sun-azimuth", {-unlimited, unlimited}, {0, 360}, SliderScale::linear, "sun"};
+inline constexpr SettingRange sun_elevation{"sun-elevation", {-90, 90}, {-90, 90}, SliderScale::linear, "sun"};
+inline constexpr SettingRange sun_irradiance{
+    "sun-irradiance", {0, unlimited}, {0, 1000}, SliderScale::logarithmic, "sun"};
 inline constexpr SettingRange fov{"fov", {0.001, 179}, {1, 179}};
 inline constexpr SettingRange view_height{"view-height", {positive, unlimited}, by_scene, SliderScale::logarithmic};
 inline constexpr SettingRange aperture{"aperture", {0, unlimited}, by_scene, SliderScale::logarithmic};
 inline constexpr SettingRange focus{"focus", {positive, unlimited}, by_scene, SliderScale::logarithmic};
 inline constexpr SettingRange exposure{"exposure", {-100, 100}, {-10, 10}};
 
-inline constexpr std::array all{max_depth,      candidates,  near_share,    spatial_passes, neighbors,      reuse_radius,
-                                confidence_cap, env_scale,   env_rotate,    sun_azimuth,    sun_elevation,  sun_irradiance,
-                                fov,            view_height, aperture,      focus,          exposure};
+inline constexpr std::array all{max_depth,     candidates,     near_share, spatial_passes, neighbors,
+                                reuse_radius,  confidence_cap, env_scale,  env_rotate,     sun_azimuth,
+                                sun_elevation, sun_irradiance, fov,        view_height,    aperture,
+                                focus,         exposure};
 
 }  // namespace ranges
 

@@ -115,10 +115,9 @@ std::vector<SurfacePoint> seen_points(const Scene& scene, const std::vector<glm:
         const glm::dmat4 to_camera = world_to_camera * instance.object_to_world;
         for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
             for (const glm::uvec3& triangle : primitive.triangles) {
-                const glm::dvec3 corners[3] = {
-                    glm::dvec3(to_camera * glm::dvec4(primitive.positions[triangle.x], 1)),
-                    glm::dvec3(to_camera * glm::dvec4(primitive.positions[triangle.y], 1)),
-                    glm::dvec3(to_camera * glm::dvec4(primitive.positions[triangle.z], 1))};
+                const glm::dvec3 corners[3] = {glm::dvec3(to_camera * glm::dvec4(primitive.positions[triangle.x], 1)),
+                                               glm::dvec3(to_camera * glm::dvec4(primitive.positions[triangle.y], 1)),
+                                               glm::dvec3(to_camera * glm::dvec4(primitive.positions[triangle.z], 1))};
                 glm::ivec2 first;
                 glm::ivec2 last;
                 if (!rays.pixels_around(corners, first, last)) {

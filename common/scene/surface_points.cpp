@@ -44,7 +44,8 @@ glm::dvec4 nearest_texel(const Scene& scene, const TextureSlot& slot, const Prim
     const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
     const int x = wrapped_texel(glm::dot(glm::dvec3(slot.u_row), uv), image.width, texture.wrap_u);
     const int y = wrapped_texel(glm::dot(glm::dvec3(slot.v_row), uv), image.height, texture.wrap_v);
-    const auto index = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
+    const auto index =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
     const std::uint8_t* texel = image.rgba.data() + 4 * index;
     return glm::dvec4(texel[0], texel[1], texel[2], texel[3]) / 255.0;
 }
@@ -151,8 +152,10 @@ bool covered_at(const Scene& scene, const Primitive& primitive, const glm::uvec3
 
 std::vector<SurfacePoint> emitting_points(const Scene& scene, const std::vector<glm::dvec3>& peaks, int count) {
     double total = 0;
-    each_emitting_triangle(scene, peaks, [&](const Primitive&, const glm::uvec3&, const WorldTriangle& at,
-                                             double brightness) { total += at.area * brightness; });
+    each_emitting_triangle(scene, peaks,
+                           [&](const Primitive&, const glm::uvec3&, const WorldTriangle& at, double brightness) {
+                               total += at.area * brightness;
+                           });
     std::vector<SurfacePoint> points;
     if (!(total > 0) || !std::isfinite(total)) {
         return points;
@@ -160,23 +163,24 @@ std::vector<SurfacePoint> emitting_points(const Scene& scene, const std::vector<
     const double step = total / count;
     double passed = 0;
     std::size_t index = 0;
-    each_emitting_triangle(scene, peaks, [&](const Primitive& primitive, const glm::uvec3& triangle,
-                                             const WorldTriangle& at, double brightness) {
-        passed += at.area * brightness;
-        for (; (static_cast<double>(index) + 0.5) * step < passed; ++index) {
-            const glm::dvec3 weights = spread_weights(index);
-            if (covered_at(scene, primitive, triangle, weights)) {
-                SurfacePoint& point = points.emplace_back();
-                point.position = at.corner + weights.y * at.edge_1 + weights.z * at.edge_2;
-                point.normal = at.front;
-                point.material = primitive.material;
-                point.two_sided = material_of(scene, primitive).double_sided;
-                point.area = step / brightness;
-                point.emission = emission_at(scene, peaks[static_cast<std::size_t>(primitive.material)], primitive,
-                                             triangle, weights);
+    each_emitting_triangle(
+        scene, peaks,
+        [&](const Primitive& primitive, const glm::uvec3& triangle, const WorldTriangle& at, double brightness) {
+            passed += at.area * brightness;
+            for (; (static_cast<double>(index) + 0.5) * step < passed; ++index) {
+                const glm::dvec3 weights = spread_weights(index);
+                if (covered_at(scene, primitive, triangle, weights)) {
+                    SurfacePoint& point = points.emplace_back();
+                    point.position = at.corner + weights.y * at.edge_1 + weights.z * at.edge_2;
+                    point.normal = at.front;
+                    point.material = primitive.material;
+                    point.two_sided = material_of(scene, primitive).double_sided;
+                    point.area = step / brightness;
+                    point.emission = emission_at(scene, peaks[static_cast<std::size_t>(primitive.material)], primitive,
+                                                 triangle, weights);
+                }
             }
-        }
-    });
+        });
     return points;
 }
 

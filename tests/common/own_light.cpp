@@ -31,7 +31,8 @@ Primitive level_square(const glm::vec3& centre, float half, int material, bool u
 Scene floor_scene() {
     Scene scene;
     scene.name = "floor";
-    add_object(scene, "floor", {level_square({0, 0, 0}, 2, add_material(scene, make_material("grey", glm::vec3(0.5F), 0, 1)))});
+    add_object(scene, "floor",
+               {level_square({0, 0, 0}, 2, add_material(scene, make_material("grey", glm::vec3(0.5F), 0, 1)))});
     scene.cameras.push_back(make_camera("camera", {0, 2, 6}, {0, 0, 0}, 45));
     return scene;
 }
@@ -49,8 +50,10 @@ TEST_CASE("what lights a view is measured as the form factors say", "[own_light]
     // A unit square at height 1 over a point gives it E = 0.752275 L; a white sky of radiance 1 gives pi.
     const double share = 0.752275 / std::numbers::pi;
     Scene scene;
-    add_object(scene, "point", {level_square({0, 0, 0}, 1e-3F, add_material(scene, make_material("grey", glm::vec3(0.5F), 0, 1)))});
-    add_object(scene, "lamp", {level_square({0, 1, 0}, 0.5F, add_material(scene, make_emitter("lamp", glm::vec3(3))), false)});
+    add_object(scene, "point",
+               {level_square({0, 0, 0}, 1e-3F, add_material(scene, make_material("grey", glm::vec3(0.5F), 0, 1)))});
+    add_object(scene, "lamp",
+               {level_square({0, 1, 0}, 0.5F, add_material(scene, make_emitter("lamp", glm::vec3(3))), false)});
     Camera camera = make_camera("camera", {0, 0.5, 0.001}, {0, 0, 0}, 0.1);
     const LightOfView light = light_of_view(scene, camera);
     CHECK(light.points > 400);

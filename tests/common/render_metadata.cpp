@@ -69,7 +69,8 @@ TEST_CASE("the repeating command holds every setting and survives a shell", "[re
     }
 }
 
-TEST_CASE("the sky that a scene was given is on record, and repeats the picture whatever decides on it then", "[render]") {
+TEST_CASE("the sky that a scene was given is on record, and repeats the picture whatever decides on it then",
+          "[render]") {
     RenderRequest request;
     CHECK(render_metadata(request, {}).at("env").empty());
     CHECK_FALSE(contains(repeat_command(request, 1), "--env"));

@@ -41,7 +41,8 @@ TEST_CASE("a view's points are what a ray through each pixel meets first", "[sur
         camera.orthographic_height = 2;
         const std::vector<SurfacePoint> points = seen(scene, camera);
         REQUIRE(points.size() == 256);
-        CHECK(std::count_if(points.begin(), points.end(), [&](const auto& p) { return p.material == near_color; }) == 64);
+        CHECK(std::count_if(points.begin(), points.end(), [&](const auto& p) { return p.material == near_color; }) ==
+              64);
         for (const SurfacePoint& point : points) {
             CHECK(point.position.z == Approx(point.material == near_color ? 0 : -2).margin(1e-12));
             CHECK(point.normal.z == Approx(1));

@@ -26,9 +26,8 @@ bool command_line_takes(const SettingRange& setting, const std::string& value) {
     add_display_options(app, arguments.request.exposure, tonemap, "");
     const std::string name = setting.name;
     // Three settings are one option.
-    const std::map<std::string, std::string> of_sun{{"sun-azimuth", "--sun={},0,0"},
-                                                    {"sun-elevation", "--sun=0,{},0"},
-                                                    {"sun-irradiance", "--sun=0,0,{}"}};
+    const std::map<std::string, std::string> of_sun{
+        {"sun-azimuth", "--sun={},0,0"}, {"sun-elevation", "--sun=0,{},0"}, {"sun-irradiance", "--sun=0,0,{}"}};
     const auto sun = of_sun.find(name);
     const std::string option = sun == of_sun.end() ? "--" + name + "={}" : sun->second;
     try {
