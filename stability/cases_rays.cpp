@@ -87,20 +87,46 @@ Measured measure_vertex_offset(Backend& backend, double offset, Effort effort) {
     return count_self_hits(backend, body, middle + dvec3(0.5, 1.5, 4), middle, effort);
 }
 
-/// A room in which every wall emits 0.25 and reflects half, at any size: one is lit by what it sees of itself.
-Measured measure_furnace(Backend& backend, double scale, Effort effort) {
+/// A room in which every wall emits 0.25 and reflects half: one is lit by what it sees of itself.
+Measured measure_furnace_of(Backend& backend, const Primitive& walls, const glm::dmat4& placed, const dvec3& eye,
+                            const dvec3& target, Effort effort) {
     Scene scene;
     scene.name = "furnace";
     Material glow = diffuse(0.5F);
     glow.emission = glm::vec3(0.25F);
     add_material(scene, glow);
-    Primitive walls = room(glm::vec3(-1), glm::vec3(1), 0);
-    bake(walls, glm::dmat4(glm::dmat3(scale)) * askew());
-    add_object(scene, "room", {walls});
-    add_camera(scene, dvec3(0.1, 0.2, 0.5) * scale, dvec3(0, -0.1, -1) * scale, 60);
+    add_object(scene, "room", {walls}, placed);
+    add_camera(scene, eye, target, 60);
     RenderSettings settings = settings_of(side_of(effort), side_of(effort), 3);
     settings.integrator = Integrator::brdf;
     return judge_mean(render(backend, scene, settings, spp_of(effort)), 0.25 * (1 - std::pow(0.5, 4)) / 0.5);
+}
+
+Measured measure_furnace(Backend& backend, double scale, Effort effort) {
+    Primitive walls = room(glm::vec3(-1), glm::vec3(1), 0);
+    bake(walls, glm::dmat4(glm::dmat3(scale)) * askew());
+    return measure_furnace_of(backend, walls, glm::dmat4(1), dvec3(0.1, 0.2, 0.5) * scale, dvec3(0, -0.1, -1) * scale,
+                              effort);
+}
+
+/// A furnace of so many units, which matrices [A t] place. One coordinate of t, about the camera, is little more than
+/// A's entries and the others are thousands of them: who inverts the matrix by elimination takes that coordinate for a
+/// pivot, and rounds the inverse of A to ulps of |t| / |A|.
+Measured measure_placed_furnace(Backend& backend, double units, Effort effort) {
+    const auto half = static_cast<float>(units);
+    const Primitive walls = room(glm::vec3(-half), glm::vec3(half), 0);
+    Measured m;
+    for (const glm::dmat4& linear : {glm::dmat4(1), askew()}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            dvec3 eye = dvec3(-0.5, 0.6, 0.4) * units;
+            eye[axis] = -std::min(0.4 * units, 1.2);
+            const Measured one = measure_furnace_of(backend, walls, linear, eye, dvec3(0), effort);
+            m.nonfinite += one.nonfinite;
+            m.evaluations += one.evaluations;
+            worsen(m, one.error, fmt::format("small {}: {}", "xyz"[axis], one.where));
+        }
+    }
+    return m;
 }
 
 /// Of a level floor, below the middle of a square lamp as wide as it is high.
@@ -255,6 +281,12 @@ void add_ray_cases(std::vector<Case>& cases) {
                      1e-5,
                      "relative",
                      measure_furnace});
+    cases.push_back({"self-intersection",
+                     "a furnace of many units, placed by a matrix",
+                     {"units", 1, 1e6, true, 3, 13},
+                     1e-5,
+                     "relative",
+                     measure_placed_furnace});
     cases.push_back({"shadow epsilon",
                      "a lamp close to a floor and far from it",
                      {"height", 1e-3, 1e5, true, 3, 9},

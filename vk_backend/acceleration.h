@@ -7,6 +7,7 @@
 
 #include "buffer.h"
 #include "instance_groups.h"
+#include "mesh_units.h"
 #include "pack/packed_scene.h"
 #include "scene_memory.h"
 
@@ -18,6 +19,7 @@ struct BottomLevels {
     std::vector<Buffer> storage;
     std::vector<vk::raii::AccelerationStructureKHR> structures;
     std::vector<vk::DeviceAddress> addresses;
+    std::vector<float> units;  // mesh_units
     std::uint64_t bytes = 0;
     std::uint64_t built_bytes = 0;  // before compaction
     InstanceGroups groups;
@@ -51,8 +53,8 @@ BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, cons
 /// that is any of them.
 std::optional<std::size_t> first_moved(const PackedScene& packed, const BottomLevels& bottom);
 
-/// Where an instance stands, as builds take it.
-vk::TransformMatrixKHR transform_of(const shared::Instance& instance);
+/// Where an instance stands, as builds take it, for vertices divided by `unit`.
+vk::TransformMatrixKHR transform_of(const shared::Instance& instance, float unit = 1);
 
 TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const BottomLevels& bottom);
 

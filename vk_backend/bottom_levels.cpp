@@ -40,7 +40,7 @@ vk::AccelerationStructureGeometryKHR describe_geometry(const PackedScene& packed
     return described;
 }
 
-/// Adds a mesh's geometries; in world space where `transform`, the address of a matrix, is not 0.
+/// Adds a mesh's geometries, their vertices transformed by the matrix at the address `transform`.
 void add_mesh(const PackedScene& packed, const SceneMemory& scene, std::size_t mesh, vk::DeviceAddress transform,
               StructureBuild& build) {
     const MeshRange& range = packed.meshes[mesh];
@@ -84,16 +84,29 @@ std::vector<bool> meshes_grouped_away(const PackedScene& packed, const InstanceG
     return away;
 }
 
-/// The matrices of all grouped instances, in the order of the groups.
-Buffer upload_transforms(const Gpu& gpu, const PackedScene& packed, const InstanceGroups& groups) {
+/// Divides by a mesh's unit.
+vk::TransformMatrixKHR into_unit(float unit) {
+    vk::TransformMatrixKHR transform;
+    for (int row = 0; row < 3; ++row) {
+        transform.matrix[row] = {};
+        transform.matrix[row][row] = 1 / unit;
+    }
+    return transform;
+}
+
+/// What vertices are transformed by when they are built: one matrix a mesh, into its unit, then those of all grouped
+/// instances in the order of the groups.
+Buffer upload_transforms(const Gpu& gpu, const PackedScene& packed, const InstanceGroups& groups,
+                         const std::vector<float>& units) {
     std::vector<vk::TransformMatrixKHR> transforms;
+    std::transform(units.begin(), units.end(), std::back_inserter(transforms), into_unit);
     for (const InstanceGroup& group : groups.groups) {
         for (const std::uint32_t instance : group.instances) {
             transforms.push_back(transform_of(packed.instances[instance]));
         }
     }
     Uploader uploader(gpu, std::uint64_t{4} << 20U);
-    Buffer buffer = upload_array(gpu, uploader, "transforms of grouped instances",
+    Buffer buffer = upload_array(gpu, uploader, "transforms of built vertices",
                                  std::span<const vk::TransformMatrixKHR>(transforms),
                                  Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress);
     uploader.finish();
@@ -233,16 +246,17 @@ BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, cons
         builds.push_back(std::move(build));
         indices.push_back(index);
     };
+    levels.units = mesh_units(packed, groups);
+    const Buffer transforms = upload_transforms(gpu, packed, groups, levels.units);
+    vk::DeviceAddress transform = transforms.address;
     const std::vector<bool> away = meshes_grouped_away(packed, groups);
-    for (std::size_t i = 0; i < packed.meshes.size(); ++i) {
+    for (std::size_t i = 0; i < packed.meshes.size(); ++i, transform += sizeof(vk::TransformMatrixKHR)) {
         if (!away[i]) {
             StructureBuild build;
-            add_mesh(packed, scene, i, 0, build);
+            add_mesh(packed, scene, i, transform, build);
             add(std::move(build), i);
         }
     }
-    const Buffer transforms = upload_transforms(gpu, packed, groups);
-    vk::DeviceAddress transform = transforms.address;
     for (std::size_t i = 0; i < groups.groups.size(); ++i) {
         StructureBuild build;
         for (const std::uint32_t instance : groups.groups[i].instances) {

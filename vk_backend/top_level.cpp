@@ -12,11 +12,11 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-vk::AccelerationStructureInstanceKHR describe_instance(const shared::Instance& placed, bool shown,
+vk::AccelerationStructureInstanceKHR describe_instance(const shared::Instance& placed, float unit, bool shown,
                                                        [[maybe_unused]] std::size_t index,
                                                        vk::DeviceAddress structure) {
     vk::AccelerationStructureInstanceKHR target{};  // its bit fields have no initialisers of their own
-    target.transform = transform_of(placed);
+    target.transform = transform_of(placed, unit);
     target.mask = MUTANT(CULL_MASK, shown, index < 8) ? 0xff : 0;
     using Flags = vk::GeometryInstanceFlagBitsKHR;
     target.setFlags(MUTANT(ALPHA_IGNORED, Flags::eTriangleFacingCullDisable,
@@ -36,12 +36,12 @@ std::vector<vk::AccelerationStructureInstanceKHR> describe_instances(const Packe
     for (std::size_t i = 0; i < packed.instances.size(); ++i) {
         const bool shown = is_shown(packed, i) && !is_grouped(bottom.groups, i);
         described.push_back(
-            describe_instance(shown ? packed.instances[i] : nowhere, shown, i,
+            describe_instance(shown ? packed.instances[i] : nowhere, bottom.units[packed.instance_meshes[i]], shown, i,
                               is_grouped(bottom.groups, i) ? 0 : bottom.addresses[packed.instance_meshes[i]]));
     }
     for (std::size_t i = 0; i < bottom.groups.groups.size(); ++i) {
         described.push_back(
-            describe_instance(nowhere, true, described.size(), bottom.addresses[packed.meshes.size() + i]));
+            describe_instance(nowhere, 1, true, described.size(), bottom.addresses[packed.meshes.size() + i]));
         described.back().instanceCustomIndex = (bottom.groups.groups[i].first_entry + 1) & 0xffffffU;
     }
     return described;
@@ -123,13 +123,14 @@ std::optional<std::size_t> first_moved(const PackedScene& packed, const BottomLe
     return {};
 }
 
-vk::TransformMatrixKHR transform_of(const shared::Instance& instance) {
+vk::TransformMatrixKHR transform_of(const shared::Instance& instance, float unit) {
     const std::array<glm::vec4, 3> rows = {instance.row_0, instance.row_1, instance.row_2};
     vk::TransformMatrixKHR transform;
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 4; ++column) {
             const bool transposed = MUTANT(INSTANCE_TRANSPOSED, false, column < 3);
-            transform.matrix[row][column] = transposed ? rows[column][row] : rows[row][column];
+            transform.matrix[row][column] =
+                (column < 3 ? unit : 1) * (transposed ? rows[column][row] : rows[row][column]);
         }
     }
     return transform;
