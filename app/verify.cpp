@@ -34,7 +34,7 @@ constexpr const char* verify_examples = R"(Examples:
   diptych verify moving.gltf --backends cpu --integrators restir --against cpu/path --frame 0,1,2,4,8,16 --spp 256
 Renders each side --runs times, every run with a seed of its own, and compares the runs' means by Welch's test: of the image, of all
 tiles together (Fisher), and of the least likely tile. FAIL: more than chance would do, over all pairs together, at --alpha. PASS: no such
-difference, and the intervals are narrow enough for one to be seen. INCONCLUSIVE: neither; more samples would tell. Exit code 1 on FAIL, and
+difference, and the intervals are narrow enough for one to be seen. INCONCLUSIVE: neither; a line says which command would tell. Exit code 1 on FAIL, and
 with --require-pass on INCONCLUSIVE too.
 With --frame, --start or --orbit the scene moves as render --frames moves it, and every frame judged counts as a pair. restir's
 chain is then played from frame 0 for each run, as often as --spp / --frame-spp, every time with another seed; other integrators render
@@ -251,6 +251,7 @@ void add_verify(CLI::App& app, Run& run) {
     command->add_option("-o,--output", options->output, "Folder for a map and a histogram of each pair's p-values");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     command->footer(verify_examples);
+    options->command = command;
     command->callback([options, seed, &run] {
         options->seed_given = seed->count() > 0;
         run = [options] { return run_verify(*options); };

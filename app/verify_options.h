@@ -36,6 +36,7 @@ struct VerifyOptions {
     bool paired = false;        // path by path instead; see verify_paired.h
     std::string output;
     bool json = false;
+    const CLI::App* command = nullptr;  // as it was typed, for a message that says what to run
 };
 
 /// One panel under one integrator, or the oracle, which heeds no integrator, in one of its modes.

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "build_info.h"
 #include "stats/kolmogorov_smirnov.h"
+#include "typed_command.h"
 
 namespace diptych::app {
 
@@ -29,15 +31,13 @@ double tile_ks_p(const TileComparison& comparison) {
     return kolmogorov_smirnov_uniform(p).p;
 }
 
-/// Samples a pixel at which the intervals would be as narrow as was asked, were the noise to fall as that of
-/// independent samples does.
-std::string advice(const PairResult& pair, const VerifyOptions& options) {
-    const double image = pair.comparison.half_width_percent / options.max_half_width;
-    const double tiles = pair.comparison.tile_half_width_percent / options.max_tile_half_width;
-    const double factor = std::max(image, tiles) * std::max(image, tiles);
-    const auto enough = [&](double spp) { return std::ceil(spp * factor / options.frame_spp) * options.frame_spp; };
-    const std::string text = fmt::format(": try --spp {:.0f}", enough(pair.spp));
-    return pair.spp_b == pair.spp ? text : text + fmt::format(" --against-spp {:.0f}", enough(pair.spp_b));
+/// In whole chains, no fewer than there were.
+double more_of(double spp, double factor, const VerifyOptions& options) {
+    return std::ceil(spp * factor / options.frame_spp) * options.frame_spp;
+}
+
+std::string samples_text(double spp, double spp_b, bool spread) {
+    return fmt::format("--spp {:.0f}", spp) + (spread ? fmt::format(" --against-spp {:.0f}", spp_b) : "");
 }
 
 /// Characters of the first column.
@@ -55,10 +55,10 @@ void print_pair(const PairResult& pair, const VerifyOptions& options) {
         100 * c.resolved_share, c.global_p, c.fisher_p, c.min_p, name_of(pair.verdict.verdict));
     if (pair.verdict.verdict != Verdict::pass) {
         fmt::print("    {}{}\n", pair.verdict.reason,
-                   pair.verdict.verdict == Verdict::inconclusive && !single_run_decides(c) &&
-                           !has_power(c, {.max_half_width = options.max_half_width,
-                                          .max_tile_half_width = options.max_tile_half_width})
-                       ? advice(pair, options)
+                   pair.verdict.verdict == Verdict::inconclusive
+                       ? ": try " + samples_text(more_of(pair.spp, pair.verdict.more_samples, options),
+                                                 more_of(pair.spp_b, pair.verdict.more_samples, options),
+                                                 pair.spp != pair.spp_b)
                        : "");
     }
 }
@@ -67,6 +67,35 @@ void print_pair(const PairResult& pair, const VerifyOptions& options) {
 
 Verdict verdict_of(const SuiteResult& suite) {
     return overall(verdicts_of(suite));
+}
+
+std::string next_command(const VerifyOptions& options, const SuiteResult& suite) {
+    double spp = 0;
+    double spp_b = 0;
+    bool spread = false;
+    bool seen = false;
+    for (const PairResult& pair : suite.pairs) {
+        if (pair.verdict.verdict == Verdict::inconclusive) {
+            spp = std::max(spp, more_of(pair.spp, pair.verdict.more_samples, options));
+            spp_b = std::max(spp_b, more_of(pair.spp_b, pair.verdict.more_samples, options));
+            spread = spread || pair.spp != pair.spp_b;
+            seen = seen || excludes_zero(pair.comparison) || pair.verdict.adjusted_p <= options.alpha;
+        }
+    }
+    if (spp == 0) {
+        return "";
+    }
+    std::vector<std::string> replaced = {"--spp", "--against-spp", "--time"};
+    std::string instead = samples_text(spp, spp_b, spread);
+    if (seen) {  // the same runs again would find the same difference again
+        std::uint32_t last = suite.seed;
+        for (const PairResult& pair : suite.pairs) {
+            last = std::max({last, pair.seed_a, pair.seed_b});
+        }
+        replaced.emplace_back("--seed");
+        instead += fmt::format(" --seed {}", last + options.runs);
+    }
+    return typed_command(*options.command, replaced, instead);
 }
 
 void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
@@ -101,6 +130,9 @@ void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
     if (options.fresh_seeds) {
         fmt::print("To repeat: --fresh-seeds --seed {}\n", suite.seed);
     }
+    if (const std::string next = next_command(options, suite); !next.empty()) {
+        fmt::print("To tell: {}\n", next);
+    }
     fmt::print("{}\n", name_of(verdict_of(suite)));
 }
 
@@ -128,6 +160,9 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
     json["seed"] = suite.seed;
     json["seconds"] = suite.seconds;
     json["commit"] = build_info::commit;
+    if (const std::string next = next_command(options, suite); !next.empty()) {
+        json["next_command"] = next;
+    }
     json["pairs"] = nlohmann::ordered_json::array();
     for (const PairResult& pair : suite.pairs) {
         const TileComparison& c = pair.comparison;

@@ -11,6 +11,10 @@ namespace diptych::app {
 /// FAIL where one pair fails, else INCONCLUSIVE where one is.
 Verdict verdict_of(const SuiteResult& suite);
 
+/// The command that would tell where a pair is inconclusive, its samples estimated from the noise; empty where none is.
+/// With seeds of its own where a difference that was seen is the reason to go on.
+std::string next_command(const VerifyOptions& options, const SuiteResult& suite);
+
 void print_suite(const VerifyOptions& options, const SuiteResult& suite);
 nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteResult& suite);
 

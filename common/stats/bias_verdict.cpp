@@ -64,11 +64,34 @@ std::string skewness_warning(const TileComparison& comparison) {
                        tail.skewness, 100 * tail.largest_share);
 }
 
+double squared(double x) {
+    return x * x;
+}
+
+/// How many times the samples an inconclusive pair wants, were noise and skewness to fall as those of independent
+/// samples do. Where the interval leaves 0 out, as many as would find a bias of the size measured.
+double wanted_samples(const TileComparison& comparison, const PairVerdict& verdict, const VerdictLimits& limits) {
+    constexpr double untold = 4;  // where no figure says how many: half the noise
+    const RunTail& darker = comparison.bias_percent < 0 ? comparison.tail_a : comparison.tail_b;
+    const double skewness = unmet_tail(comparison) ? squared(darker.skewness / harmless_skewness) : 1;
+    const double tail = lopsided_tails(comparison) || single_run_decides(comparison) ? untold : 1;
+    const double power = std::max(squared(comparison.half_width_percent / limits.max_half_width),
+                                  squared(comparison.tile_half_width_percent / limits.max_tile_half_width));
+    const double bias = std::max(squared(verdict.min_detectable_percent / comparison.bias_percent), 2.0);
+    const double factor = std::max({excludes_zero(comparison) ? bias : power, skewness, tail, 1.0});
+    return std::isfinite(factor) ? factor : untold;
+}
+
 std::string weakness(const TileComparison& comparison, const VerdictLimits& limits) {
     if (single_run_decides(comparison)) {
         return fmt::format(
             "heavy tail: one run holds {:.0f} % of the image mean's variance, so its interval says little",
             100 * std::max(comparison.tail_a.largest_share, comparison.tail_b.largest_share));
+    }
+    if (excludes_zero(comparison) && !has_power(comparison, limits)) {
+        return fmt::format("the image mean probably differs, as its interval leaves 0 out, but that is no proof at so "
+                           "few samples (known to {:.3g} %, {:.3g} % is wanted)",
+                           comparison.half_width_percent, limits.max_half_width);
     }
     if (comparison.half_width_percent > limits.max_half_width) {
         return fmt::format("the image mean is known to {:.3g} % only, {:.3g} % is wanted",
@@ -89,6 +112,10 @@ const char* name_of(Verdict verdict) {
     default:
         return "INCONCLUSIVE";
     }
+}
+
+bool excludes_zero(const TileComparison& comparison) {
+    return comparison.ci95_percent[0] > 0 || comparison.ci95_percent[1] < 0;
 }
 
 bool lopsided_tails(const TileComparison& comparison) {
@@ -140,6 +167,9 @@ std::vector<PairVerdict> judge(std::span<const TileComparison> comparisons, cons
             verdict.reason = "no difference, and one would have been seen";
         } else {
             verdict.reason = weakness(comparison, limits);
+        }
+        if (verdict.verdict == Verdict::inconclusive) {
+            verdict.more_samples = wanted_samples(comparison, verdict, limits);
         }
         verdicts.push_back(verdict);
     }

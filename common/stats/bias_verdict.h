@@ -26,10 +26,14 @@ struct PairVerdict {
     double adjusted_p = 1;              // least of the pair's three, by Holm over the suite: FAIL at alpha or less
     double min_detectable_percent = 0;  // bias of the image mean's widest channel that the suite finds with that power
     std::string reason;                 // one clause
+    double more_samples = 1;            // where inconclusive: how many times the samples would tell; an estimate
 };
 
 /// Whether the intervals are narrow enough to tell.
 bool has_power(const TileComparison& comparison, const VerdictLimits& limits);
+
+/// Whether the 95 % interval of the image mean leaves 0 out.
+bool excludes_zero(const TileComparison& comparison);
 
 /// Whether single runs carry many more tiles on one side than on the other (more than 1 % of them). Then that side has
 /// not met its rare events often enough: a tile where they are missing looks like a loss, and a t-test finds it far

@@ -81,6 +81,17 @@ TEST_CASE("verify passes with power enough, and says where it lacks some", "[app
     const ProcessResult weak = verify(folder, box, with(small, {"--integrators", "brdf", "--require-pass"}));
     CHECK(weak.exit_code == 1);
     CHECK(contains(weak.out, "try --spp"));
+    // The command that it prints tells: here, that there is power enough, or a difference.
+    const std::string head = "To tell: diptych verify ";
+    const std::size_t begin = weak.out.find(head);
+    REQUIRE(begin != std::string::npos);
+    const std::string told = weak.out.substr(begin + head.size(), weak.out.find('\n', begin) - begin - head.size());
+    CHECK(contains(told, box));
+    CHECK(contains(told, "--integrators brdf"));
+    CHECK(contains(told, "--require-pass"));
+    CHECK(contains(told, "--spp "));
+    CHECK_FALSE(contains(told, "--spp 8 "));
+    CHECK_FALSE(contains(told, "--time"));
     CHECK(weak.out.substr(weak.out.size() - 13) == "INCONCLUSIVE\n");
 }
 

@@ -36,6 +36,31 @@ TEST_CASE("PASS wants power, FAIL does not") {
     CHECK(verdict_on(unequal) == Verdict::fail);
 }
 
+TEST_CASE("An inconclusive verdict says how many samples would tell") {
+    const auto judged = [](const TileComparison& comparison) { return judge(std::span(&comparison, 1), {}).front(); };
+    CHECK(judged(comparison_with(0.3, 0.09, 0.9)).more_samples == 1);       // PASS
+    CHECK(judged(comparison_with(0.3, 0.2, 0.9)).more_samples == Approx(4));  // half the width
+    CHECK(judged(comparison_with(0.3, 0.2, 3)).more_samples == Approx(9));
+    // Far from 0, but not by what alpha wants: as many as find a bias of that size, not as many as make it narrow.
+    TileComparison differs = comparison_with(0.001, 2, 30);
+    differs.bias_percent = -3.9;
+    differs.ci95_percent[0] = -5.9;
+    differs.ci95_percent[1] = -1.9;
+    PairVerdict verdict = judged(differs);
+    CHECK(verdict.verdict == Verdict::inconclusive);
+    CHECK(verdict.reason.find("leaves 0 out") != std::string::npos);
+    const double needed = verdict.min_detectable_percent / 3.9;
+    CHECK(verdict.more_samples == Approx(std::max(2.0, needed * needed)));
+    CHECK(verdict.more_samples < 10);
+    // Too skewed to be believed: skewness falls as the root of the samples, to 0.4.
+    differs.global_p = 1e-9;
+    differs.tail_a.skewness = 1.2;
+    differs.tail_a.skewness_error = 0.1;
+    verdict = judged(differs);
+    CHECK(verdict.verdict == Verdict::inconclusive);
+    CHECK(verdict.more_samples == Approx(9));
+}
+
 TEST_CASE("Tiles alone fail no pair whose tails are lopsided, the image mean does") {
     TileComparison comparison = comparison_with(0.3, 0.01, 0.1);
     comparison.fisher_p = 1e-9;
