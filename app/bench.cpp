@@ -10,6 +10,7 @@
 #include "backend.h"
 #include "command.h"
 #include "error.h"
+#include "pack_requested.h"
 #include "render/settings_names.h"
 #include "report.h"
 #include "scene_setup.h"
@@ -75,7 +76,7 @@ std::vector<Entry> make_entries(BenchOptions& options, const Scene& scene, StepL
         request.settings.sample_count = options.spp * (most_warm_up + static_cast<std::uint32_t>(options.frames));
         Entry entry;
         entry.integrator = request.settings.integrator;
-        entry.packed = std::make_unique<PackedScene>(pack_scene(scene, request.settings));
+        entry.packed = std::make_unique<PackedScene>(pack_requested(scene, request.settings));
         entry.renderer = make_renderer(scene, *entry.packed, request);
         entries.push_back(std::move(entry));
     }

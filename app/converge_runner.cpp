@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "backend.h"
+#include "pack_requested.h"
 
 namespace diptych::app {
 
@@ -24,7 +25,7 @@ MethodRunner::Entry& MethodRunner::entry(std::uint32_t sample_count) {
         RenderRequest request = method_.request;
         request.settings.sample_count = std::max(sample_count, 1U);
         const double begin = now();
-        entry.packed = std::make_unique<PackedScene>(pack_scene(scene_, request.settings));
+        entry.packed = std::make_unique<PackedScene>(pack_requested(scene_, request.settings));
         entry.pack_seconds = now() - begin;
         entry.renderer = make_renderer(scene_, *entry.packed, request);
     }

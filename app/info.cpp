@@ -10,6 +10,7 @@
 #include "error.h"
 #include "pack/features.h"
 #include "pack/packed_scene.h"
+#include "pack_requested.h"
 #include "render/film.h"
 #include "report.h"
 #include "scene/clips.h"
@@ -138,7 +139,9 @@ nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, con
     json["bytes"] = bytes + costs.acceleration_bytes + costs.pass_bytes;
     Warnings warnings = scene.warnings;
     warnings.append(clip_warnings(scene));
-    json["warnings"] = warnings.lines();
+    std::vector<std::string> lines = warnings.lines();
+    lines.insert(lines.end(), packed.warnings.begin(), packed.warnings.end());
+    json["warnings"] = lines;
     return json;
 }
 
@@ -200,7 +203,7 @@ int run_info(InfoOptions options) {
     request.settings.first_hit_layers = options.layers;
     const Scene scene = prepare_scene(options.arguments);
     report_warnings(clip_warnings(scene));
-    const nlohmann::ordered_json json = gather(scene, pack_scene(scene, request.settings), request);
+    const nlohmann::ordered_json json = gather(scene, pack_requested(scene, request.settings), request);
     if (options.json) {
         print_json(json);
     } else {

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "backend.h"
+#include "pack_requested.h"
 #include "scene/orbit.h"
 #include "scene/pose.h"
 
@@ -27,7 +28,7 @@ PlayedScene::PlayedScene(const Scene& scene, const RenderRequest& request)
     }
     request_.settings.moves = chained_ && (moves(scene) || request_.orbit != 0);
     // At rest first: origin and radius then depend on no frame.
-    packed_ = pack_scene(scene, request_.settings);
+    packed_ = pack_requested(scene, request_.settings);
     renderer_ = make_renderer(posed_ ? *posed_ : scene, packed_, request_);
 }
 

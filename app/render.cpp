@@ -12,6 +12,7 @@
 #include "image/tonemap_image.h"
 #include "interrupt.h"
 #include "live_view.h"
+#include "pack_requested.h"
 #include "render/settings_names.h"
 #include "render_picture.h"
 #include "render_sequence.h"
@@ -109,7 +110,7 @@ int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) 
         report_warning(fmt::format("{}: its animations are not played, it is shown at rest: give --frames or --start",
                                    scene.name));
     }
-    const PackedScene packed = pack_scene(scene, request.settings);
+    const PackedScene packed = pack_requested(scene, request.settings);
     const std::unique_ptr<Renderer> renderer = make_renderer(scene, packed, request);
     InterruptGuard interrupt;
     if (request.warm_up > 0) {

@@ -6,6 +6,7 @@
 #include "backend_pair.h"
 #include "command.h"
 #include "error.h"
+#include "pack_requested.h"
 #include "render/settings_names.h"
 #include "replay_text.h"
 #include "report.h"
@@ -71,7 +72,7 @@ int run_replay(ReplayOptions options) {
         throw Error(fmt::format("--pixel {},{}: lies outside the picture of {}x{}", options.pixel[0], options.pixel[1],
                                 settings.width, settings.height));
     }
-    const PackedScene packed = pack_scene(scene, settings);
+    const PackedScene packed = pack_requested(scene, settings);
     const shared::PathQuery query{{options.pixel[0], options.pixel[1]}, options.sample};
     Replay replay;
     replay.tolerance = options.tolerance;

@@ -11,6 +11,7 @@
 #include "error.h"
 #include "image/figures.h"
 #include "image/image_file.h"
+#include "pack_requested.h"
 #include "render/paired_test.h"
 #include "render/render_metadata.h"
 #include "render/settings_names.h"
@@ -46,7 +47,7 @@ std::vector<shared::PathQuery> list_paths(std::uint64_t first, std::size_t count
 PairedRun run_one(const Scene& scene, RenderSettings settings, const PairArguments& pair, const PairedOptions& options,
                   Image& differing) {
     const auto start = std::chrono::steady_clock::now();
-    const PackedScene packed = pack_scene(scene, settings);
+    const PackedScene packed = pack_requested(scene, settings);
     const std::vector<std::unique_ptr<Renderer>> renderers = make_renderers(scene, packed, pair);
     PairedRun run;
     run.integrator = settings.integrator;

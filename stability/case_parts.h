@@ -15,6 +15,7 @@ namespace diptych::stability {
 void add_microfacet_cases(std::vector<Case>& cases);
 void add_surface_cases(std::vector<Case>& cases);
 void add_geometry_cases(std::vector<Case>& cases);
+void add_flattened_cases(std::vector<Case>& cases);
 void add_sum_cases(std::vector<Case>& cases);
 void add_ray_cases(std::vector<Case>& cases);
 void add_light_scene_cases(std::vector<Case>& cases);

@@ -12,6 +12,7 @@ const std::vector<Case>& all_cases() {
         std::vector<Case> all;
         add_ray_cases(all);
         add_geometry_cases(all);
+        add_flattened_cases(all);
         add_microfacet_cases(all);
         add_surface_cases(all);
         add_sum_cases(all);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "error.h"
+#include "pack_requested.h"
 #include "report.h"
 #include "scene/pose.h"
 #include "scene_setup.h"
@@ -162,7 +163,7 @@ void PanelEngine::pack_anew(Scene& scene) {
     const Scene& loaded = *job_->scene;
     place_lights(loaded, job_->state.request, scene);
     set_camera(job_->state, scene);
-    auto packed = std::make_unique<PackedScene>(pack_scene(scene, settings()));
+    auto packed = std::make_unique<PackedScene>(pack_requested(scene, settings()));
     if (renderer_) {
         // Settings change neither, and a renderer may refer to those that it was made from.
         packed->positions.swap(packed_->positions);

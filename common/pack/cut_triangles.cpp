@@ -45,6 +45,25 @@ struct Cutting {
 
     Edge edge(const glm::uvec3& t, int side) const { return {places[t[side]], places[t[(side + 1) % 3]]}; }
 
+    /// Whether there is a place between the ends of that side: halving ends where double precision does.
+    bool has_middle(const glm::uvec3& t, int side) const {
+        const glm::dvec3& from = places[t[side]];
+        const glm::dvec3& to = places[t[(side + 1) % 3]];
+        const glm::dvec3 middle = 0.5 * (from + to);
+        return middle != from && middle != to;
+    }
+
+    /// How many triangles halving these edges will add.
+    std::size_t count_halves(const std::set<Edge>& edges) const {
+        std::size_t count = 0;
+        for (const glm::uvec3& t : primitive.triangles) {
+            for (int side = 0; side < 3; ++side) {
+                count += edges.count(edge(t, side));
+            }
+        }
+        return count;
+    }
+
     std::uint32_t add_middle(std::uint32_t a, std::uint32_t b) {
         const auto add = [&](auto& values) {
             if (!values.empty()) {
@@ -126,7 +145,8 @@ struct Sizing {
         for (const Cutting& part : parts) {
             for (const glm::uvec3& t : part.primitive.triangles) {
                 const auto corner = [&](int k) { return to_world * part.places[t[k]]; };
-                if (const std::optional<int> side = side_to_halve({corner(0), corner(1), corner(2)})) {
+                const std::optional<int> side = side_to_halve({corner(0), corner(1), corner(2)});
+                if (side && part.has_middle(t, *side)) {
                     edges.insert(part.edge(t, *side));
                 }
             }
@@ -161,7 +181,8 @@ std::pair<double, double> extent_and_distance(const Mesh& mesh, const glm::dvec3
 
 }  // namespace
 
-std::optional<Mesh> cut_near_triangles(const Mesh& mesh, const glm::dvec3& eye, const glm::dmat3& object_to_world) {
+std::optional<Mesh> cut_near_triangles(const Mesh& mesh, const glm::dvec3& eye, const glm::dmat3& object_to_world,
+                                       std::size_t& budget) {
     const auto [extent, distance] = extent_and_distance(mesh, eye, object_to_world);
     const Sizing sizing{object_to_world, std::ldexp(extent, -most_halvings)};
     if (!std::isfinite(extent) || extent <= longest_near_edge * distance || !sizing.finds_any(mesh, eye)) {
@@ -172,6 +193,14 @@ std::optional<Mesh> cut_near_triangles(const Mesh& mesh, const glm::dvec3& eye, 
         parts.emplace_back(primitive, eye);
     }
     for (std::set<Edge> edges = sizing.edges_to_halve(parts); !edges.empty(); edges = sizing.edges_to_halve(parts)) {
+        std::size_t added = 0;
+        for (const Cutting& part : parts) {
+            added += part.count_halves(edges);
+        }
+        if (added > budget) {
+            break;
+        }
+        budget -= added;
         for (Cutting& part : parts) {
             part.halve(edges);
         }

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "pack/pack_parts.h"
+#include "pack/range.h"
 
 namespace diptych {
 
@@ -16,6 +17,7 @@ void pack_camera(const Scene& scene, const RenderSettings& settings, PackedScene
     const double half_height = camera.orthographic ? camera.orthographic_height / 2 : std::tan(camera.vertical_fov / 2);
     const double aspect = settings.atlas_tile > 0 ? 1.0 : static_cast<double>(settings.width) / settings.height;
     const double half_width = half_height * aspect;
+    require_camera(scene, camera, {half_width, half_height}, packed);
     out.kind = camera.orthographic ? shared::CAMERA_ORTHOGRAPHIC : shared::CAMERA_PERSPECTIVE;
     out.origin = glm::vec3(glm::dvec3(m[3]) - packed.origin);
     out.right = glm::vec3(glm::dvec3(m[0]) * half_width);

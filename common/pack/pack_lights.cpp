@@ -6,6 +6,7 @@
 #include "pack/emission_mean.h"
 #include "pack/features.h"
 #include "pack/pack_parts.h"
+#include "pack/range.h"
 
 namespace diptych {
 namespace {
@@ -168,6 +169,8 @@ void place_punctual_lights(const Scene& scene, PackedScene& packed) {
     for (const PunctualLight& light : scene.lights) {
         shared::PunctualLight out{};
         out.position = glm::dvec3(light.light_to_world[3]) - packed.origin;
+        require_near(scene, "light '" + light.name + "'", "stands",
+                     light.type == PunctualType::directional ? 0 : glm::length(glm::dvec3(out.position)));
         out.direction = -glm::normalize(glm::dvec3(light.light_to_world[2]));
         out.intensity = light.intensity;
         out.part = shared::NONE;

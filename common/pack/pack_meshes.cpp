@@ -1,8 +1,10 @@
-#include <cmath>
+#include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "compat.h"
 #include "pack/cut_triangles.h"
+#include "pack/linear_part.h"
 #include "pack/pack_parts.h"
 
 namespace diptych {
@@ -20,69 +22,64 @@ std::uint32_t append(std::vector<T>& buffer, const std::vector<T>& values, bool 
     return first;
 }
 
-/// Where a mesh's vertices lie, if that is so far from their own origin that its triangles would lose digits there;
-/// else 0. Differences of such vertices are exact.
-glm::dvec3 center_of(const Mesh& mesh) {
-    glm::dvec3 low(1e300);
-    glm::dvec3 high(-1e300);
-    for (const Primitive& primitive : mesh.primitives) {
-        for (const glm::vec3& p : primitive.positions) {
-            low = glm::min(low, glm::dvec3(p));
-            high = glm::max(high, glm::dvec3(p));
-        }
-    }
-    const glm::dvec3 middle = 0.5 * (low + high);
-    const bool far = glm::length(middle) > 8 * glm::length(0.5 * (high - low)) && high.x >= low.x;
-    return MUTANT(MESH_NOT_CENTRED, far, false) ? glm::dvec3(glm::vec3(middle)) : glm::dvec3(0);
+/// Where an instance of a planned mesh stands, without the frame's own center.
+glm::dmat4 placement(const Scene& scene, const PlannedMesh& planned) {
+    glm::dmat4 in_world(1);
+    in_world[3] = glm::dvec4(planned.frame.center, 1);
+    return planned.frame.in_world ? in_world : scene.instances[planned.users.front()].object_to_world;
 }
 
-/// A mesh cut about the eye, and where that is in the mesh's space.
-struct NearMesh {
-    Mesh mesh;
-    glm::dvec3 eye;
-};
+/// Cuts what is large near the eye, of a mesh that stands in one place for good: others are near here and far there.
+void cut_near_eye(const Scene& scene, const PackedScene& packed, std::size_t& budget, PlannedMesh& planned) {
+    if (planned.users.size() != 1 || scene.instances[planned.users.front()].node != none) {
+        return;
+    }
+    const glm::dmat4 placed = placement(scene, planned);
+    const glm::dmat3 linear(placed);
+    if (!has_good_inverse(linear, packed.reach)) {
+        return;
+    }
+    const glm::dvec3 eye = glm::inverse(linear) * (packed.origin - glm::dvec3(placed[3]));
+    std::optional<Mesh> cut = MUTANT(TRIANGLES_NOT_CUT, cut_near_triangles(*planned.mesh, eye, linear, budget),
+                                     std::optional<Mesh>());
+    if (cut) {
+        planned.own = std::make_shared<Mesh>(*std::move(cut));
+        planned.mesh = planned.own.get();
+        planned.frame.center = planned.frame.in_world ? planned.frame.center + eye : eye;
+        planned.frame.unit = 1;
+        planned.cut = true;
+    }
+}
 
-/// Of a mesh that stands in one place for good: others are near the eye here and far there.
-std::optional<NearMesh> near_mesh(const Mesh& mesh, const std::vector<const Instance*>& users,
-                                  const glm::dvec3& origin) {
-    if (users.size() != 1 || users.front()->node != none) {
-        return std::nullopt;
+/// Appends the vertices of a primitive as the frame has them.
+std::uint32_t append_positions(const Scene& scene, const PlannedMesh& planned, const std::vector<glm::vec3>& positions,
+                               PackedScene& packed) {
+    const std::uint32_t first = append(packed.positions, positions, true, scene, "vertices");
+    const MeshFrame& frame = planned.frame;
+    const bool as_they_are = planned.cut || frame.in_world || (frame.center == glm::dvec3(0) && frame.unit == 1);
+    for (std::size_t v = first; !as_they_are && v < packed.positions.size(); ++v) {
+        packed.positions[v] = glm::vec3((glm::dvec3(packed.positions[v]) - frame.center) / frame.unit);
     }
-    const glm::dmat4& placed = users.front()->object_to_world;
-    const glm::dvec3 eye = glm::inverse(glm::dmat3(placed)) * (origin - glm::dvec3(placed[3]));
-    if (!std::isfinite(eye.x + eye.y + eye.z)) {
-        return std::nullopt;
-    }
-    std::optional<Mesh> cut =
-        MUTANT(TRIANGLES_NOT_CUT, cut_near_triangles(mesh, eye, glm::dmat3(placed)), std::optional<Mesh>());
-    return cut ? std::optional<NearMesh>({*std::move(cut), eye}) : std::nullopt;
+    return first;
 }
 
 }  // namespace
 
-void pack_meshes(const Scene& scene, PackedScene& packed) {
+void pack_meshes(const Scene& scene, MeshPlan& plan, PackedScene& packed) {
     const auto has = [&](std::uint32_t bit) { return (packed.features & bit) != 0; };
-    std::vector<std::vector<const Instance*>> users(scene.meshes.size());
-    for (const Instance& instance : scene.instances) {
-        users[static_cast<std::size_t>(instance.mesh)].push_back(&instance);
-    }
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    std::size_t cut_budget = most_cut_triangles;
+    for (PlannedMesh& planned : plan.meshes) {
         MeshRange range{static_cast<std::uint32_t>(packed.geometries.size()), 0};
-        const std::optional<NearMesh> near = near_mesh(scene.meshes[i], users[i], packed.origin);
-        const Mesh& mesh = near ? near->mesh : scene.meshes[i];
-        const glm::dvec3 center = near ? glm::dvec3(0) : center_of(mesh);
-        packed.mesh_centers.push_back(near ? near->eye : center);
-        for (const Primitive& primitive : mesh.primitives) {
-            if (users[i].empty() || primitive.triangles.empty()) {
+        cut_near_eye(scene, packed, cut_budget, planned);
+        packed.mesh_frames.push_back(planned.frame);
+        for (const Primitive& primitive : planned.mesh->primitives) {
+            if (planned.users.empty() || primitive.triangles.empty()) {
                 continue;
             }
             const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
             shared::Geometry g{};
             g.first_triangle = append(packed.triangles, primitive.triangles, true, scene, "triangles");
-            g.first_vertex = append(packed.positions, primitive.positions, true, scene, "vertices");
-            for (std::size_t v = g.first_vertex; center != glm::dvec3(0) && v < packed.positions.size(); ++v) {
-                packed.positions[v] = glm::vec3(glm::dvec3(packed.positions[v]) - center);
-            }
+            g.first_vertex = append_positions(scene, planned, primitive.positions, packed);
             g.first_normal = append(packed.normals, primitive.normals, true, scene, "normals");
             const bool mapped = has(shared::FEATURE_NORMAL_MAPS) && material.normal_texture.texture != none;
             g.first_tangent = append(packed.tangents, primitive.tangents, mapped, scene, "tangents");
@@ -102,43 +99,49 @@ void pack_meshes(const Scene& scene, PackedScene& packed) {
     }
 }
 
-bool place_instance(const Instance& instance, const glm::dvec3& origin, const glm::dvec3& center,
-                    shared::Instance& out) {
+std::optional<double> place_instance(const Instance& instance, const glm::dvec3& origin, const MeshFrame& frame,
+                                     double reach, shared::Instance& out) {
     const glm::dmat4& m = instance.object_to_world;
     const glm::dmat3 linear(m);
-    const glm::dvec3 moved = glm::dvec3(m[3]) - origin + linear * center;
-    const double determinant = glm::determinant(linear);
-    const double scale = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-    const auto row = [&](int r) { return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], moved[r])); };
+    out.mirrored = mirrors(linear) ? 1U : 0U;
+    glm::dmat3 packed_linear = frame.in_world ? glm::dmat3(1) : linear * frame.unit;
+    glm::dvec3 moved = frame.in_world ? frame.center - origin : glm::dvec3(m[3]) - origin + linear * frame.center;
+    bool shown = true;
+    if (!frame.in_world && !is_well_conditioned(packed_linear)) {
+        const std::optional<glm::dmat3> thick = thickened(packed_linear);
+        const glm::dvec3 middle = 0.5 * (frame.low + frame.high);
+        shown = MUTANT(THICKENED_HIDDEN, thick.has_value(), false);
+        moved += (packed_linear - thick.value_or(packed_linear)) * middle;
+        packed_linear = thick.value_or(packed_linear);
+    }
+    const auto row = [&](int r) {
+        return glm::vec4(glm::dvec4(packed_linear[0][r], packed_linear[1][r], packed_linear[2][r], moved[r]));
+    };
     out.row_0 = row(0);
     out.row_1 = row(1);
     out.row_2 = row(2);
-    out.mirrored = determinant < 0 ? 1U : 0U;
-    // Against the columns' lengths, so that small scales are no reason to refuse.
-    return std::abs(determinant) > 1e-12 * scale && std::isfinite(scale);
+    const double size = largest_column(packed_linear);
+    shown = shown && size > 1e-13 * std::max(reach, 1.0);
+    return shown ? std::optional<double>(0.5 * least_thickness * size) : std::nullopt;
 }
 
-void pack_instances(const Scene& scene, PackedScene& packed) {
+void pack_instances(const Scene& scene, const MeshPlan& plan, PackedScene& packed) {
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        const MeshRange& range = packed.meshes[static_cast<std::size_t>(instance.mesh)];
-        if (range.geometry_count == 0) {
+        const int mesh = plan.of_instances[i];
+        if (mesh == none || packed.meshes[static_cast<std::size_t>(mesh)].geometry_count == 0) {
             continue;
         }
         shared::Instance out{};
-        const bool shown =
-            place_instance(instance, packed.origin, packed.mesh_centers[static_cast<std::size_t>(instance.mesh)], out);
-        if (!shown && instance.node == none) {
-            packed.warnings.push_back(scene.name + ": instance \"" + instance.name +
-                                      "\": its transform flattens it to nothing; left out");
-            continue;
-        }
-        out.first_geometry = range.first_geometry;
+        const std::optional<double> unit = place_instance(
+            instance, packed.origin, packed.mesh_frames[static_cast<std::size_t>(mesh)], packed.reach, out);
+        packed.least_unit = std::min(packed.least_unit, unit.value_or(1));
+        out.first_geometry = packed.meshes[static_cast<std::size_t>(mesh)].first_geometry;
         out.first_emitter_slot = shared::NONE;
         packed.instances.push_back(out);
-        packed.instance_meshes.push_back(static_cast<std::uint32_t>(instance.mesh));
+        packed.instance_meshes.push_back(static_cast<std::uint32_t>(mesh));
         packed.scene_instances.push_back(static_cast<std::uint32_t>(i));
-        packed.instance_shown.push_back(shown ? 1 : 0);
+        packed.instance_shown.push_back(unit ? 1 : 0);
         packed.instance_moves.push_back(instance.node == none ? 0 : 1);
     }
     require_indexable(scene, packed.instances.size(), "instances");

@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "pack/pack_parts.h"
+#include "pack/range.h"
 
 namespace diptych {
 namespace {
@@ -33,17 +34,38 @@ std::vector<bool> move_materials(const Scene& scene, PackedScene& packed) {
     return changed;
 }
 
+/// How far away anything is now. Throws Error where that is too far.
+double reach_now(const Scene& scene, const PackedScene& packed) {
+    double reach = packed.reach;
+    for (std::size_t i = 0; i < packed.instances.size(); ++i) {
+        const Instance& instance = scene.instances[packed.scene_instances[i]];
+        const MeshFrame& frame = packed.mesh_frames[packed.instance_meshes[i]];
+        if (instance.node == none) {
+            continue;
+        }
+        const Box box{frame.center + frame.unit * frame.low, frame.center + frame.unit * frame.high};
+        const double own = reach_of(box, instance.object_to_world, packed.origin);
+        require_near(scene, "instance '" + instance.name + "'", "reaches", own);
+        reach = std::max(reach, own);
+    }
+    return reach;
+}
+
 /// Which instances stand elsewhere now.
 std::vector<bool> move_instances(const Scene& scene, PackedScene& packed) {
+    const double reach = reach_now(scene, packed);
+    packed.least_unit = 1;
     std::vector<bool> changed(packed.instances.size(), false);
     for (std::size_t i = 0; i < packed.instances.size(); ++i) {
         shared::Instance next = packed.instances[i];
-        const bool shown = place_instance(scene.instances[packed.scene_instances[i]], packed.origin,
-                                          packed.mesh_centers[packed.instance_meshes[i]], next);
-        changed[i] =
-            std::memcmp(&next, &packed.instances[i], sizeof next) != 0 || shown != (packed.instance_shown[i] != 0);
+        const std::optional<double> unit =
+            place_instance(scene.instances[packed.scene_instances[i]], packed.origin,
+                           packed.mesh_frames[packed.instance_meshes[i]], reach, next);
+        packed.least_unit = std::min(packed.least_unit, unit.value_or(1));
+        changed[i] = std::memcmp(&next, &packed.instances[i], sizeof next) != 0 ||
+                     unit.has_value() != (packed.instance_shown[i] != 0);
         packed.instances[i] = next;
-        packed.instance_shown[i] = shown ? 1 : 0;
+        packed.instance_shown[i] = unit ? 1 : 0;
     }
     return changed;
 }

@@ -1,6 +1,9 @@
 // The steps of pack_scene, in the order in which they run.
 #pragma once
 
+#include <optional>
+
+#include "pack/mesh_plan.h"
 #include "pack/packed_scene.h"
 
 namespace diptych {
@@ -8,15 +11,17 @@ namespace diptych {
 /// Materials, the texture slots that they read and the texels behind those; each image once.
 void pack_materials(const Scene& scene, PackedScene& packed);
 
-/// Meshes, their geometries and vertices. Attributes that no feature reads stay out.
-void pack_meshes(const Scene& scene, PackedScene& packed);
+/// Meshes as planned, their geometries and vertices. Attributes that no feature reads stay out.
+void pack_meshes(const Scene& scene, MeshPlan& plan, PackedScene& packed);
 
-/// Instances, moved by -origin. One whose transform has no inverse is left out with a warning, unless it moves.
-void pack_instances(const Scene& scene, PackedScene& packed);
+/// Instances, moved by -origin.
+void pack_instances(const Scene& scene, const MeshPlan& plan, PackedScene& packed);
 
-/// Transform and orientation alone, of a mesh moved by -center. False where there is no inverse.
-bool place_instance(const Instance& instance, const glm::dvec3& origin, const glm::dvec3& center,
-                    shared::Instance& out);
+/// Transform and orientation alone. Where the transform is nearly singular it is thickened (linear_part.h), about the
+/// middle of the mesh. Returns a lower bound of what a unit of the mesh's frame is in the world, in any direction;
+/// nothing where the instance has no area, or so little size that rays have no place in its mesh's space.
+std::optional<double> place_instance(const Instance& instance, const glm::dvec3& origin, const MeshFrame& frame,
+                                     double reach, shared::Instance& out);
 
 /// The camera of the settings, moved by -origin; the whole image plane has the aspect of the film.
 void pack_camera(const Scene& scene, const RenderSettings& settings, PackedScene& packed);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "error.h"
 #include "pack/features.h"
@@ -10,11 +11,13 @@
 namespace diptych {
 namespace {
 
+const Camera* rendered_camera(const Scene& scene, const RenderSettings& settings) {
+    return scene.cameras.empty() ? nullptr : &scene.cameras[static_cast<std::size_t>(settings.camera)];
+}
+
 glm::dvec3 rebase_origin(const Scene& scene, const RenderSettings& settings) {
-    if (scene.cameras.empty()) {
-        return glm::dvec3(0);
-    }
-    return glm::dvec3(scene.cameras[static_cast<std::size_t>(settings.camera)].camera_to_world[3]);
+    const Camera* camera = rendered_camera(scene, settings);
+    return camera == nullptr ? glm::dvec3(0) : glm::dvec3(camera->camera_to_world[3]);
 }
 
 /// Copies of the view fill the film: a part of one would reuse pixels that are not there.
@@ -110,8 +113,11 @@ PackedScene pack_scene(const Scene& scene, const RenderSettings& settings) {
     packed.moves = moves(scene);
     packed.keeps_previous = settings.moves;
     pack_materials(scene, packed);
-    pack_meshes(scene, packed);
-    pack_instances(scene, packed);
+    MeshPlan plan = plan_meshes(scene, packed.origin, rendered_camera(scene, settings));
+    packed.reach = plan.reach;
+    packed.warnings = std::move(plan.warnings);
+    pack_meshes(scene, plan, packed);
+    pack_instances(scene, plan, packed);
     pack_camera(scene, settings, packed);
     pack_environment(scene, settings, packed);
     pack_lights(scene, packed);

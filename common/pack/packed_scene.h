@@ -25,6 +25,15 @@ struct GeometryExtent {
     bool alpha = false;  // candidate hits must be put to accepts_hit
 };
 
+/// How a mesh's vertices were packed: packed = (file - center) / unit; with `in_world`, packed = world - center.
+struct MeshFrame {
+    glm::dvec3 center{0};
+    double unit = 1;
+    glm::dvec3 low{0};  // box around what is packed
+    glm::dvec3 high{0};
+    bool in_world = false;  // of an instance that stands still under a matrix without a good inverse
+};
+
 namespace shared {
 /// The arrays of scene_buffers.h.
 struct SceneBuffers {
@@ -50,7 +59,7 @@ struct PackedScene : shared::SceneBuffers {
         instance_shown;  // parallel to instances: 0 where no ray may hit it, flat as it is just now
     std::vector<std::uint8_t> instance_moves;  // parallel to instances: 0 where it stands still at every moment
     shared::RenderConstants constants{};
-    std::vector<std::string> warnings;  // one line each: what was left out because it cannot be rendered
+    std::vector<std::string> warnings;  // one line each: what was left out
     std::uint32_t features = 0;   // FEATURE_… bits that the scene and the settings need, or all of them if generic
     bool keeps_previous = false;  // acceleration structures of the moment before stay, for settings.moves
 
@@ -60,7 +69,9 @@ struct PackedScene : shared::SceneBuffers {
     double environment_luminance = 0;            // mean over the sphere
     double environment_mean = 0;                 // the same where the largest component of its scale is 1
     glm::vec3 environment_tint{0};               // its scale over the largest component; 0 where that is 0
-    std::vector<glm::dvec3> mesh_centers;        // parallel to meshes: what was taken off their vertices
+    std::vector<MeshFrame> mesh_frames;          // parallel to meshes
+    double reach = 1;                            // the largest distance of any instance from the origin, at least 1
+    double least_unit = 1;                       // what is least of any mesh's unit in the world, in any direction
     std::vector<std::uint32_t> scene_instances;  // parallel to instances: index into Scene::instances
     std::vector<double> emitter_means;           // parallel to emissive_triangles: mean luminance of what they emit
     std::vector<double> light_powers;            // what light_table was built from
@@ -83,13 +94,14 @@ std::uint64_t buffer_bytes(const PackedScene& packed);
 
 /// Flattens a scene for one render, rebased so that the camera is the origin: what is near it keeps fp32's full
 /// precision. Buffers behind features that are left out stay empty. Triangle indices in `triangles` count from their
-/// geometry's first vertex. Throws Error where the scene holds more than 32-bit indices can name.
+/// geometry's first vertex. Throws Error where the scene holds more than 32-bit indices can name, or is too large or
+/// too small for fp32 (range.h).
 PackedScene pack_scene(const Scene& scene, const RenderSettings& settings);
 
 /// Overwrites what moves (MOVING_BUFFERS, the camera, rotation and scale of the environment) with the same scene at
 /// another moment; nothing else is touched, and every index and count stays, light ids included. Origin and radius are
 /// those of pack_scene, so that a moment depends on no other. Keeps constants.seed. Throws Error where the scene is
-/// another one, an environment that was dark or of another tint included.
+/// another one, an environment that was dark or of another tint included, or where something is out of range.
 void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 /// A moment in which nothing but the camera is another: pack_moment without a look at the rest.

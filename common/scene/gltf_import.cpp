@@ -89,11 +89,6 @@ void add_instance(Document& document, Scene& scene, const NodeTree& tree, const 
     } else {
         instance.object_to_world = tree.to_world[static_cast<std::size_t>(node)];
         instance.node = motion.node(node);
-        // What moves may have a size at another moment.
-        if (instance.node == none && glm::determinant(glm::dmat3(instance.object_to_world)) == 0) {
-            warn(document, node_label(document, node), "has a scale of 0; left out");
-            return;
-        }
         const auto [entry, added] = table.shared.try_emplace({holder.mesh, use.weights}, none);
         if (added) {
             entry->second = add_mesh(document, scene, holder.mesh, use);
@@ -115,16 +110,15 @@ Scene import_document(Document& document) {
     std::vector<int> light_sources;
     for (const int node : tree.visible) {
         const tinygltf::Node& holder = document.model.nodes[static_cast<std::size_t>(node)];
-        const glm::dmat4& to_world = tree.to_world[static_cast<std::size_t>(node)];
         if (holder.mesh != none) {
             add_instance(document, scene, tree, motion, node, table);
         }
         if (holder.camera != none) {
-            scene.cameras.push_back(import_camera(document, holder.camera, node, to_world));
+            scene.cameras.push_back(import_camera(document, holder.camera, node, tree));
             scene.cameras.back().node = motion.node(node);
         }
         if (const int light = find_light(document, node); light != none) {
-            scene.lights.push_back(import_light(document, light, node, to_world));
+            scene.lights.push_back(import_light(document, light, node, tree));
             scene.lights.back().node = motion.node(node);
             light_sources.push_back(light);
         }

@@ -200,12 +200,11 @@ NodeTree read_nodes(Document& document) {
     return tree;
 }
 
-glm::dmat4 without_scale(const Document& document, const glm::dmat4& matrix, const std::string& object) {
-    const std::optional<glm::dmat4> rigid = rigid_part(matrix);
-    if (!rigid) {
-        fail(document, object, "has a transform without a direction to look along");
+glm::dmat4 require_direction(const Document& document, const std::optional<glm::dmat4>& placed, int node) {
+    if (!placed) {
+        fail(document, node_label(document, node), "has a transform without a direction to look along");
     }
-    return *rigid;
+    return *placed;
 }
 
 }  // namespace diptych::gltf

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "scene/animation.h"
@@ -24,8 +26,7 @@ NodeTree read_nodes(Document& document);
 /// "nodes[3] (name)".
 std::string node_label(const Document& document, int node);
 
-/// `matrix` without scale, shear and mirroring: its -Z is kept exactly, +Y as far as that allows. Throws Error in the
-/// name of `object` where either axis has length 0.
-glm::dmat4 without_scale(const Document& document, const glm::dmat4& matrix, const std::string& object);
+/// What pose.h's rigid_placement or light_placement found for this node. Throws Error in its name where that is nothing.
+glm::dmat4 require_direction(const Document& document, const std::optional<glm::dmat4>& placed, int node);
 
 }  // namespace diptych::gltf

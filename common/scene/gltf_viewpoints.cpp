@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/gltf_nodes.h"
+#include "scene/pose.h"
 
 namespace diptych::gltf {
 namespace {
@@ -47,7 +47,7 @@ double angle_in(Document& document, double angle, double low, double high, const
 
 }  // namespace
 
-Camera import_camera(Document& document, int index, int node, const glm::dmat4& to_world) {
+Camera import_camera(Document& document, int index, int node, const NodeTree& tree) {
     if (index < 0 || static_cast<std::size_t>(index) >= document.model.cameras.size()) {
         fail(document, node_label(document, node) + ".camera", "there is no cameras[" + std::to_string(index) + "]");
     }
@@ -58,7 +58,8 @@ Camera import_camera(Document& document, int index, int node, const glm::dmat4& 
     camera.name = !node_name.empty()     ? node_name
                   : !source.name.empty() ? source.name
                                          : "camera" + std::to_string(index);
-    camera.camera_to_world = without_scale(document, to_world, node_label(document, node));
+    const glm::dmat4& to_world = tree.to_world[static_cast<std::size_t>(node)];
+    camera.camera_to_world = require_direction(document, rigid_placement(tree.nodes, node, to_world), node);
     if (source.type == "orthographic") {
         import_orthographic(document, source.orthographic, object, camera);
     } else {
@@ -84,14 +85,12 @@ int find_light(const Document& document, int node) {
     return index;
 }
 
-PunctualLight import_light(Document& document, int index, int node, const glm::dmat4& to_world) {
+PunctualLight import_light(Document& document, int index, int node, const NodeTree& tree) {
     const tinygltf::Node& holder = document.model.nodes[static_cast<std::size_t>(node)];
-    const std::string holder_name = node_label(document, node);
     const tinygltf::Light& source = document.model.lights[static_cast<std::size_t>(index)];
     const std::string object = label("lights", static_cast<std::size_t>(index), source.name);
     PunctualLight light;
     light.name = !holder.name.empty() ? holder.name : source.name;
-    light.light_to_world = without_scale(document, to_world, holder_name);
     if (source.type == "directional") {
         light.type = PunctualType::directional;
     } else if (source.type == "spot") {
@@ -103,6 +102,9 @@ PunctualLight import_light(Document& document, int index, int node, const glm::d
     } else if (source.type != "point") {
         fail(document, object + ".type", "is '" + source.type + "', which KHR_lights_punctual does not have");
     }
+    const glm::dmat4& to_world = tree.to_world[static_cast<std::size_t>(node)];
+    light.light_to_world =
+        require_direction(document, light_placement(light.type, tree.nodes, node, to_world), node);
     if (!source.color.empty() && source.color.size() != 3) {
         fail(document, object + ".color", "has " + std::to_string(source.color.size()) + " numbers instead of 3");
     }

@@ -92,8 +92,8 @@ std::vector<glm::dmat4> place_nodes(const Scene& scene, const std::vector<Node>&
     return to_world;
 }
 
-glm::dmat4 view_of(const Scene& scene, const glm::dmat4& to_world, const std::string& object, double seconds) {
-    const std::optional<glm::dmat4> rigid = rigid_part(to_world);
+glm::dmat4 view_of(const Scene& scene, const std::optional<glm::dmat4>& rigid, const std::string& object,
+                   double seconds) {
     if (!rigid) {
         fail(scene, object, seconds, "has a transform without a direction to look along");
     }
@@ -134,12 +134,15 @@ void pose_scene(Scene& scene, double seconds) {
     }
     for (Camera& camera : scene.cameras) {
         if (camera.node != none) {
-            camera.camera_to_world = view_of(scene, of(camera.node), "camera '" + camera.name + "'", seconds);
+            const std::optional<glm::dmat4> placed = rigid_placement(scene.nodes, camera.node, of(camera.node));
+            camera.camera_to_world = view_of(scene, placed, "camera '" + camera.name + "'", seconds);
         }
     }
     for (PunctualLight& light : scene.lights) {
         if (light.node != none) {
-            light.light_to_world = view_of(scene, of(light.node), "light '" + light.name + "'", seconds);
+            const std::optional<glm::dmat4> placed =
+                light_placement(light.type, scene.nodes, light.node, of(light.node));
+            light.light_to_world = view_of(scene, placed, "light '" + light.name + "'", seconds);
         }
     }
 }
@@ -158,8 +161,36 @@ Camera camera_at(const Scene& scene, std::size_t camera, double seconds) {
     });
     const std::vector<glm::dmat4> to_world = place_nodes(scene, nodes, seconds);
     posed.camera_to_world =
-        view_of(scene, to_world[static_cast<std::size_t>(posed.node)], "camera '" + posed.name + "'", seconds);
+        view_of(scene, rigid_placement(nodes, posed.node, to_world[static_cast<std::size_t>(posed.node)]),
+                "camera '" + posed.name + "'", seconds);
     return posed;
+}
+
+std::optional<glm::dmat4> rigid_placement(const std::vector<Node>& nodes, int node, const glm::dmat4& to_world) {
+    std::optional<glm::dmat4> rigid = rigid_part(to_world);
+    if (!rigid) {
+        glm::dmat4 turned(1);
+        for (int i = node; i != none; i = nodes[static_cast<std::size_t>(i)].parent) {
+            Node unscaled = nodes[static_cast<std::size_t>(i)];
+            unscaled.scale = glm::dvec3(1);
+            turned = node_matrix(unscaled) * turned;
+        }
+        rigid = rigid_part(turned);
+    }
+    if (rigid) {
+        (*rigid)[3] = to_world[3];
+    }
+    return rigid;
+}
+
+std::optional<glm::dmat4> light_placement(PunctualType type, const std::vector<Node>& nodes, int node,
+                                          const glm::dmat4& to_world) {
+    std::optional<glm::dmat4> rigid = rigid_placement(nodes, node, to_world);
+    if (!rigid && type == PunctualType::point) {
+        rigid = glm::dmat4(1);
+        (*rigid)[3] = to_world[3];
+    }
+    return rigid;
 }
 
 std::optional<glm::dmat4> rigid_part(const glm::dmat4& matrix) {
@@ -169,7 +200,7 @@ std::optional<glm::dmat4> rigid_part(const glm::dmat4& matrix) {
     const glm::dvec3 up(matrix[1]);
     const glm::dvec3 level = up - z * glm::dot(z, up);
     const double level_length = glm::length(level);
-    if (!(back_length > 0) || !(level_length > 1e-12 * glm::length(up))) {
+    if (!(back_length > 0) || !std::isfinite(back_length) || !(level_length > 1e-12 * glm::length(up))) {
         return std::nullopt;
     }
     const glm::dvec3 y = level / level_length;

@@ -44,7 +44,7 @@ dvec3 mesh_normal(const World& world, const Triangle& triangle, dvec2 uv) {
         return triangle.front;
     }
     const dvec3 n =
-        world.frames[triangle.frame].inverse_transpose * interpolate(triangle.primitive->normals, triangle, uv);
+        world.frames[triangle.frame].normals * interpolate(triangle.primitive->normals, triangle, uv);
     const double size = length(n);
     return size > 0 ? n / size : triangle.front;
 }

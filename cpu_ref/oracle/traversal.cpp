@@ -31,11 +31,14 @@ constexpr double least_t = 1e-11;
 /// rounding is 6e-8 of the largest coordinate across a surface, and 1 / cos of that along a ray that grazes it.
 constexpr double head_start = 1e-5;
 constexpr double run_out = 1e-3;
+/// How far apart two surfaces may be, relative to the scene, for float to take one for the other.
+constexpr double float_blur = 2e-5;
 
 struct RayContext {
     BaseContext base;  // first, so that Embree's pointer leads back here
     const World* world;
     const Ray* ray;
+    std::optional<Hit>* nearest = nullptr;  // where every candidate is to be seen: the nearest of them, in double
 };
 
 bool count_memory(void* counter, ssize_t bytes, bool) {
@@ -55,6 +58,13 @@ void refuse_false_candidates(const RTCFilterFunctionNArguments* args) {
     if (!hit || !(hit->t > least_t * context.world->extent && hit->t < ray.t_max) ||
         !is_there(*context.world, ray, *hit)) {
         args->valid[0] = 0;
+        return;
+    }
+    if (context.nearest != nullptr) {
+        if (!*context.nearest || hit->t < (*context.nearest)->t) {
+            *context.nearest = hit;
+        }
+        args->valid[0] = 0;  // so that Embree goes on
     }
 }
 
@@ -141,6 +151,20 @@ struct Traversal::Structures {
         query.flags = 0;
         return query;
     }
+
+    void intersect(RayContext& context, RTCRayHit& query) const {
+        init_context(&context.base);
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if DIPTYCH_EMBREE_VERSION >= 4
+        RTCIntersectArguments arguments;
+        rtcInitIntersectArguments(&arguments);
+        arguments.context = &context.base;
+        rtcIntersect1(scene, &query, &arguments);
+#else
+        rtcIntersect1(scene, &context.base, &query);
+#endif
+    }
 };
 
 std::optional<Hit> cross_plane(const Triangle& triangle, std::size_t index, const Ray& ray) {
@@ -186,24 +210,22 @@ std::uint64_t Traversal::bytes() const {
 
 std::optional<Hit> Traversal::closest(const Ray& ray) const {
     RayContext context{{}, structures_->world, &ray};
-    init_context(&context.base);
     RTCRayHit query;
     query.ray = structures_->float_ray(ray);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#if DIPTYCH_EMBREE_VERSION >= 4
-    RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
-    arguments.context = &context.base;
-    rtcIntersect1(structures_->scene, &query, &arguments);
-#else
-    rtcIntersect1(structures_->scene, &context.base, &query);
-#endif
+    structures_->intersect(context, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return std::nullopt;
     }
     const std::size_t index = query.hit.primID;
     std::optional<Hit> hit = cross_plane(structures_->world->triangles[index], index, ray);
+    // The sheets of a flattened shape are so close that float may have met the farther one: once more about there.
+    const double found = double(query.ray.tfar);
+    const double blur = float_blur * glm::max(structures_->world->extent, length(ray.origin));
+    query.ray = structures_->float_ray(ray);
+    query.ray.tnear = float(glm::max(found - blur, 0.0));
+    query.ray.tfar = float(found + blur);
+    context.nearest = &hit;
+    structures_->intersect(context, query);
     hit->barycentrics = held_inside(hit->barycentrics);
     return hit;
 }

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "oracle/duplicates.h"
+
 namespace diptych::oracle {
 
 namespace {
@@ -17,6 +19,22 @@ void visit_primitives(const Scene& scene, Visit visit) {
             visit(i, primitive);
         }
     }
+}
+
+Frame make_frame(const glm::dmat3& m) {
+    const double volume = length(m[0]) * length(m[1]) * length(m[2]);
+    const bool mirrored = determinant(m) < -1e-12 * volume;
+    const glm::dmat3 cofactors(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
+    return {m, mirrored ? -cofactors : cofactors, mirrored};
+}
+
+/// What is less of the longest side's square is a line that rounding widened.
+constexpr double least_area = 1e-13;
+
+bool has_area(const Triangle& t) {
+    const dvec3 third = t.c - t.b;
+    const double longest = glm::max(dot(t.ab, t.ab), glm::max(dot(t.ac, t.ac), dot(third, third)));
+    return length(cross(t.ab, t.ac)) > least_area * longest;
 }
 
 /// Sets origin and extent from the box around every vertex that is used.
@@ -45,9 +63,9 @@ World make_world(const Scene& scene) {
     world.scene = &scene;
     find_extent(world);
     for (const Instance& instance : scene.instances) {
-        const glm::dmat3 linear(instance.object_to_world);
-        world.frames.push_back({linear, transpose(inverse(linear)), determinant(linear) < 0});
+        world.frames.push_back(make_frame(glm::dmat3(instance.object_to_world)));
     }
+    Duplicates duplicates(scene);
     visit_primitives(scene, [&](std::size_t instance, const Primitive& primitive) {
         glm::dmat4 matrix = scene.instances[instance].object_to_world;
         matrix[3] -= dvec4(world.origin, 0);
@@ -58,11 +76,10 @@ World make_world(const Scene& scene) {
             triangle.c = transform_point(matrix, primitive.positions[vertex.z]);
             triangle.ab = triangle.b - triangle.a;
             triangle.ac = triangle.c - triangle.a;
-            const dvec3 normal = cross(triangle.ab, triangle.ac);
-            if (!(length(normal) > 0)) {
+            if (duplicates.met_before(instance, primitive, vertex) || !has_area(triangle)) {
                 continue;
             }
-            triangle.front = normalize(normal) * (world.frames[instance].mirrored ? -1.0 : 1.0);
+            triangle.front = normalize(cross(triangle.ab, triangle.ac)) * (world.frames[instance].mirrored ? -1.0 : 1.0);
             triangle.vertex = vertex;
             triangle.primitive = &primitive;
             triangle.material = &scene.materials[std::size_t(primitive.material)];

@@ -28,9 +28,9 @@ struct Triangle {
 
 /// How one instance carries directions.
 struct Frame {
-    glm::dmat3 linear;             // of object_to_world: tangents
-    glm::dmat3 inverse_transpose;  // normals
-    bool mirrored;                 // negative determinant
+    glm::dmat3 linear;   // of object_to_world: tangents
+    glm::dmat3 normals;  // cofactors, turned about where the instance mirrors: the inverse transpose but for its length
+    bool mirrored;       // the determinant is negative by more than rounding
 };
 
 /// A scene whose instances have been multiplied out. The scene must outlive it.

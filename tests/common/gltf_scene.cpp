@@ -72,10 +72,9 @@ TEST_CASE("a mirrored scale stays in the instance", "[gltf]") {
     GltfBuilder builder;
     const Scene scene = load_text(builder.text(R"("nodes":[{"scale":[-1,2,1],"mesh":0},{"scale":[0,0,0],"mesh":0}],)" +
                                                triangle_meshes(builder)));
-    REQUIRE(scene.instances.size() == 1);
+    REQUIRE(scene.instances.size() == 2);
     CHECK(glm::determinant(glm::dmat3(scene.instances[0].object_to_world)) == Approx(-2));
-    REQUIRE(scene.warnings.size() == 1);
-    CHECK_THAT(scene.warnings.lines()[0], Catch::Contains("nodes[1]") && Catch::Contains("scale of 0"));
+    CHECK(scene.warnings.empty());  // what the scale of 0 leaves is for the packer to say
 }
 
 TEST_CASE("cameras are rigid, whatever their nodes scale", "[gltf]") {

@@ -33,6 +33,11 @@ Mesh large_triangle(double size, std::uint32_t seed) {
     return {"large", {p}};
 }
 
+std::optional<Mesh> cut_near(const Mesh& mesh, const glm::dvec3& eye, const glm::dmat3& to_world,
+                             std::size_t budget = most_cut_triangles) {
+    return cut_near_triangles(mesh, eye, to_world, budget);
+}
+
 glm::dvec3 normal_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return glm::cross(b - a, c - a);
 }
@@ -60,7 +65,7 @@ TEST_CASE("A triangle near the eye is cut until it is no larger than it may be, 
         const glm::dvec3 unit = glm::normalize(whole_normal);
         // Off the middle, two metres above.
         const glm::dvec3 eye = 0.5 * corner(0) + 0.3 * corner(1) + 0.2 * corner(2) + 2.0 * (unit.y < 0 ? -unit : unit);
-        const std::optional<Mesh> cut = cut_near_triangles(mesh, eye, glm::dmat3(1));
+        const std::optional<Mesh> cut = cut_near(mesh, eye, glm::dmat3(1));
         REQUIRE(cut);
         const Primitive& p = cut->primitives[0];
         CHECK(p.triangles.size() > 10);
@@ -124,7 +129,7 @@ TEST_CASE("Neighbours that share an edge are cut there alike, across primitives 
         p.triangles = {k == 0 ? glm::uvec3(0, 2, 1) : glm::uvec3(0, 1, 2)};
     }
     // Nearer to one of them than to the edge.
-    const std::optional<Mesh> cut = cut_near_triangles(mesh, {3e3, 6, 40}, glm::dmat3(1));
+    const std::optional<Mesh> cut = cut_near(mesh, {3e3, 6, 40}, glm::dmat3(1));
     REQUIRE(cut);
     const auto on_edge = [&](const Primitive& p) {
         std::set<float> along;
@@ -140,14 +145,14 @@ TEST_CASE("Neighbours that share an edge are cut there alike, across primitives 
 }
 
 TEST_CASE("What is small for its distance stays as it is, and what stands twice or moves") {
-    CHECK(!cut_near_triangles(large_triangle(1, 1), {0.5, 1, 0.5}, glm::dmat3(1)));
-    CHECK(!cut_near_triangles(large_triangle(1e5, 1), {0, 1e5, 0}, glm::dmat3(1)));
-    CHECK(cut_near_triangles(large_triangle(1, 1), {0, 1, 0}, glm::dmat3(1e6, 0, 0, 0, 1, 0, 0, 0, 1e6)));
-    CHECK(!cut_near_triangles({"empty", {}}, glm::dvec3(0), glm::dmat3(1)));
+    CHECK(!cut_near(large_triangle(1, 1), {0.5, 1, 0.5}, glm::dmat3(1)));
+    CHECK(!cut_near(large_triangle(1e5, 1), {0, 1e5, 0}, glm::dmat3(1)));
+    CHECK(cut_near(large_triangle(1, 1), {0, 1, 0}, glm::dmat3(1e6, 0, 0, 0, 1, 0, 0, 0, 1e6)));
+    CHECK(!cut_near({"empty", {}}, glm::dvec3(0), glm::dmat3(1)));
     // In the triangle's plane, at a corner of it: cut, but not forever.
     const Mesh touched = large_triangle(1e5, 1);
     const std::optional<Mesh> cut =
-        cut_near_triangles(touched, glm::dvec3(touched.primitives[0].positions[0]), glm::dmat3(1));
+        cut_near(touched, glm::dvec3(touched.primitives[0].positions[0]), glm::dmat3(1));
     REQUIRE(cut);
     CHECK(cut->primitives[0].triangles.size() < 1000);
 
@@ -159,7 +164,7 @@ TEST_CASE("What is small for its distance stays as it is, and what stands twice 
     add_instance(scene, "ground", 1, translation(0, -0.5, 0));
     const PackedScene near = pack_scene(scene, brdf_settings());
     CHECK(near.triangles.size() > 12);
-    CHECK(near.mesh_centers[1] != glm::dvec3(0));
+    CHECK(near.mesh_frames[1].center != glm::dvec3(0));
     add_instance(scene, "again", 1, translation(0, -2, 0));
     CHECK(pack_scene(scene, brdf_settings()).triangles.size() == 3);
     scene.instances.pop_back();

@@ -139,27 +139,47 @@ TEST_CASE("a scene whose only light is off picks none, and finds it again") {
     }
 }
 
-TEST_CASE("an instance that is flat at a moment keeps its index and shows nothing") {
+namespace {
+
+/// The lamp's node scales to this within a second.
+Scene scaled_lamp(const glm::vec3& scale) {
     Scene scene = lamp_scene();
     scene.nodes.emplace_back();
     scene.instances[0].node = 0;
     scene.animations[0].channels.push_back(
-        {AnimatedProperty::scale, 0, Interpolation::linear, {0, 1}, {1, 1, 1, 1, 0, 1}});
+        {AnimatedProperty::scale, 0, Interpolation::linear, {0, 1}, {1, 1, 1, scale.x, scale.y, scale.z}});
     scene.animations[0].channels[0].values = {4, 4};
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("A flat moment of an instance shows what is left of it, and one without area nothing") {
+    for (const bool has_area : {true, false}) {
+        Scene scene = scaled_lamp(has_area ? glm::vec3(1, 0, 1) : glm::vec3(1, 0, 0));
+        PackedScene packed = pack_scene(scene, path_settings());
+        CHECK(is_shown(packed, 0));
+        pose_scene(scene, 1);
+        pack_moment(scene, path_settings(), packed);
+        REQUIRE(packed.instances.size() == 1);
+        CHECK(is_shown(packed, 0) == has_area);
+        CHECK((packed.emissive_triangles[0].pmf > 0) == has_area);
+        CHECK((glm::length(glm::dvec3(packed.instances[0].row_1)) > 0) == has_area);
+        const PackedScene begun_flat = pack_scene(scene, path_settings());
+        CHECK(begun_flat.instances.size() == 1);
+        CHECK(begun_flat.warnings.empty());
+        pose_scene(scene, 0.5);
+        pack_moment(scene, path_settings(), packed);
+        CHECK(is_shown(packed, 0));
+        CHECK(packed.emissive_triangles[0].pmf == 0.5F);
+    }
+}
+
+TEST_CASE("a moment that leaves the range of single precision is refused") {
+    Scene scene = scaled_lamp(glm::vec3(1e30F));
     PackedScene packed = pack_scene(scene, path_settings());
-    CHECK(is_shown(packed, 0));
     pose_scene(scene, 1);
-    pack_moment(scene, path_settings(), packed);
-    REQUIRE(packed.instances.size() == 1);
-    CHECK(!is_shown(packed, 0));
-    CHECK(packed.emissive_triangles[0].pmf == 0);
-    const PackedScene begun_flat = pack_scene(scene, path_settings());
-    CHECK(begun_flat.instances.size() == 1);
-    CHECK(begun_flat.warnings.empty());
-    pose_scene(scene, 0.5);
-    pack_moment(scene, path_settings(), packed);
-    CHECK(is_shown(packed, 0));
-    CHECK(packed.emissive_triangles[0].pmf == 0.5F);
+    CHECK_THROWS_WITH(pack_moment(scene, path_settings(), packed), Catch::Contains("from the camera"));
 }
 
 TEST_CASE("a textured lamp's mean follows its emission") {

@@ -29,29 +29,96 @@ TEST_CASE("The camera is the origin, and far scenes keep their digits") {
     CHECK(glm::length(a.punctual_lights[0].position - shared::vec3(0.125F, 1.5F, -3.75F)) < 1e-6F);
 }
 
-TEST_CASE("An instance that is flattened to nothing is left out with a warning") {
+TEST_CASE("An instance under a matrix without a good inverse has vertices in the world") {
     Scene scene = least_scene();
-    glm::dmat4 flat(1);
+    scene.meshes[0].primitives[0].normals.assign(4, glm::vec3(0, 1, 0));
+    glm::dmat4 flat(2);
     flat[1] = {0, 0, 0, 0};
+    flat[3] = {5, 6, 7, 1};
     add_instance(scene, "pancake", 0, flat);
-    glm::dmat4 tiny(1e-6);
-    tiny[3] = {0, 0, 0, 1};
-    add_instance(scene, "mite", 0, tiny);
-    glm::dmat4 wrong(1);
-    wrong[0][0] = std::numeric_limits<double>::infinity();
-    add_instance(scene, "beyond", 0, wrong);
+    const PackedScene packed = pack_scene(scene, brdf_settings());
+    CHECK(packed.warnings.empty());
+    REQUIRE(packed.instances.size() == 2);
+    REQUIRE(packed.geometries.size() == 2);
+    CHECK(packed.instance_shown == std::vector<std::uint8_t>{1, 1});
+    // About the middle of its box; the camera stands at (0, 1, 3).
+    CHECK(packed.instances[1].row_0 == shared::vec4(1, 0, 0, 5));
+    CHECK(packed.instances[1].row_1 == shared::vec4(0, 1, 0, 5));
+    CHECK(packed.instances[1].row_2 == shared::vec4(0, 0, 1, 4));
+    CHECK(packed.positions[packed.geometries[1].first_vertex] == shared::vec3(-2, 0, 2));
+    // The cofactor matrix carries the normal of what was flattened along it; not normalised.
+    CHECK(glm::normalize(packed.normals[packed.geometries[1].first_normal]) == shared::vec3(0, 1, 0));
+    CHECK(packed.positions[packed.geometries[0].first_vertex] == shared::vec3(-1, 0, 1));
+}
+
+TEST_CASE("What a transform leaves no area or no size is left out, and counted once for each kind") {
+    Scene scene = least_scene();
+    glm::dmat4 line(1);
+    line[0] = {0, 0, 0, 0};
+    line[1] = {0, 0, 0, 0};
+    add_instance(scene, "line", 0, line);
+    add_instance(scene, "point", 0, glm::dmat4(glm::dmat3(0)));
+    add_instance(scene, "speck", 0, glm::dmat4(glm::dmat3(1e-20)));
+    add_instance(scene, "mite", 0, glm::dmat4(glm::dmat3(1e-8)));
     const PackedScene packed = pack_scene(scene, brdf_settings());
     CHECK(packed.instances.size() == 2);
-    CHECK(packed.instance_meshes.size() == 2);
     REQUIRE(packed.warnings.size() == 2);
-    CHECK_THAT(packed.warnings[0], Catch::Contains("least") && Catch::Contains("pancake"));
-    CHECK_THAT(packed.warnings[1], Catch::Contains("beyond"));
+    CHECK_THAT(packed.warnings[0], Catch::Contains("least: 2 instances are flattened"));
+    CHECK_THAT(packed.warnings[1], Catch::Contains("least: 1 instances are too small"));
+}
+
+TEST_CASE("What is out of the range of single precision is refused by name") {
+    const auto refused = [](const Scene& scene, const char* object, const char* reason) {
+        CHECK_THROWS_WITH(pack_scene(scene, brdf_settings()),
+                          Catch::Contains("least: ") && Catch::Contains(object) && Catch::Contains(reason));
+    };
+    for (const double far : {1e13, 1e30, 1e300, std::numeric_limits<double>::infinity()}) {
+        Scene scene = least_scene();
+        add_instance(scene, "beyond", 0, glm::dmat4(glm::dmat3(far)));
+        refused(scene, "instance 'beyond'", "from the camera");
+        scene = least_scene();
+        scene.cameras[0].camera_to_world[3].x = far;
+        refused(scene, "instance 'square'", "from the camera");
+        scene = least_scene();
+        scene.lights.emplace_back().name = "star";
+        scene.lights[0].light_to_world[3].y = far;
+        refused(scene, "light 'star'", "from the camera");
+        scene = least_scene();
+        scene.cameras[0].orthographic = true;
+        scene.cameras[0].orthographic_height = far;
+        refused(scene, "camera 'camera'", "half width");
+        scene = least_scene();
+        scene.cameras[0].lens_radius = far;
+        refused(scene, "camera 'camera'", "lens");
+    }
+    Scene tiny = least_scene();
+    tiny.instances[0].object_to_world = glm::dmat4(glm::dmat3(1e-20));
+    CHECK(pack_scene(tiny, brdf_settings()).instances.empty());
+    tiny.cameras[0].camera_to_world[3] = {0, 1e-20, 3e-20, 1};
+    refused(tiny, "instance 'square'", "is 2.83e-20 m across");
+}
+
+TEST_CASE("Vertices of 1e30 under a matrix of 1e-30 are where they are") {
+    Scene scene = least_scene();
+    for (glm::vec3& p : scene.meshes[0].primitives[0].positions) {
+        p *= 1e30F;
+    }
+    scene.instances[0].object_to_world = glm::dmat4(glm::dmat3(1e-30));
+    const auto corner = [](const PackedScene& packed) {
+        const shared::Instance& i = packed.instances.at(0);
+        const glm::vec4 p(packed.positions[0], 1);
+        return glm::vec3(glm::dot(i.row_0, p), glm::dot(i.row_1, p), glm::dot(i.row_2, p));
+    };
+    CHECK(glm::length(corner(pack_scene(scene, brdf_settings())) - glm::vec3(-1, -1, -2)) < 1e-6F);
+    scene.instances[0].node = 0;
+    scene.nodes.emplace_back();
+    CHECK(glm::length(corner(pack_scene(scene, brdf_settings())) - glm::vec3(-1, -1, -2)) < 1e-6F);
 }
 
 TEST_CASE("Meshes are kept once, whatever the number of their instances") {
     Scene scene = least_scene();
     for (int i = 0; i < 100; ++i) {
-        add_instance(scene, "copy", 0, translation(i, 0, 0));
+        add_instance(scene, "copy", 0, translation(i + 1, 0, 0));
     }
     const PackedScene packed = pack_scene(scene, brdf_settings());
     CHECK(packed.instances.size() == 101);

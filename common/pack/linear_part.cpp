@@ -1,0 +1,125 @@
+#include "pack/linear_part.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace diptych {
+namespace {
+
+constexpr double rounding = 1e-12;
+
+double largest_entry(const glm::dmat3& m) {
+    double largest = 0;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            largest = std::max(largest, std::abs(m[column][row]));
+        }
+    }
+    return largest;
+}
+
+double frobenius(const glm::dmat3& m) {
+    return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
+/// Turns columns p and q of `a` until they are orthogonal, and those of `right` with them. False where they were.
+bool turn_columns(glm::dmat3& a, glm::dmat3& right, int p, int q) {
+    const double pp = glm::dot(a[p], a[p]);
+    const double qq = glm::dot(a[q], a[q]);
+    const double pq = glm::dot(a[p], a[q]);
+    if (!(std::abs(pq) > 1e-15 * std::sqrt(pp) * std::sqrt(qq))) {
+        return false;
+    }
+    const double zeta = (qq - pp) / (2 * pq);
+    const double tangent = (zeta < 0 ? -1 : 1) / (std::abs(zeta) + std::hypot(1.0, zeta));
+    const double cosine = 1 / std::hypot(1.0, tangent);
+    const double sine = cosine * tangent;
+    for (glm::dmat3* m : {&a, &right}) {
+        const glm::dvec3 from = (*m)[p];
+        (*m)[p] = cosine * from - sine * (*m)[q];
+        (*m)[q] = sine * from + cosine * (*m)[q];
+    }
+    return true;
+}
+
+glm::dvec3 any_across(const glm::dvec3& unit) {
+    const glm::dvec3 axis = std::abs(unit.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    return glm::normalize(glm::cross(unit, axis));
+}
+
+}  // namespace
+
+SingularValues singular_values(const glm::dmat3& m) {
+    const double scale = largest_entry(m);
+    SingularValues found{glm::dmat3(1), glm::dvec3(0), glm::dmat3(1)};
+    if (!(scale > 0)) {
+        return found;
+    }
+    glm::dmat3 a = m / scale;
+    glm::dmat3 right(1);
+    for (int sweep = 0; sweep < 30; ++sweep) {
+        const bool xy = turn_columns(a, right, 0, 1);
+        const bool xz = turn_columns(a, right, 0, 2);
+        const bool yz = turn_columns(a, right, 1, 2);
+        if (!xy && !xz && !yz) {
+            break;
+        }
+    }
+    std::array<int, 3> order = {0, 1, 2};
+    std::sort(order.begin(), order.end(), [&](int p, int q) { return glm::dot(a[p], a[p]) > glm::dot(a[q], a[q]); });
+    for (int i = 0; i < 3; ++i) {
+        const auto from = order[static_cast<std::size_t>(i)];
+        found.values[i] = scale * glm::length(a[from]);
+        found.right[i] = right[from];
+    }
+    found.left[0] = glm::normalize(a[order[0]]);
+    const glm::dvec3 second = a[order[1]] - found.left[0] * glm::dot(found.left[0], a[order[1]]);
+    const double length = glm::length(second);
+    found.left[1] = length > 0 ? second / length : any_across(found.left[0]);
+    const bool flips = mirrors(m) != (glm::determinant(found.right) < 0);
+    found.left[2] = glm::cross(found.left[0], found.left[1]) * (flips ? -1.0 : 1.0);
+    return found;
+}
+
+bool mirrors(const glm::dmat3& m) {
+    glm::dmat3 unit(m / largest_entry(m));
+    for (int i = 0; i < 3; ++i) {
+        unit[i] /= glm::length(unit[i]);
+    }
+    return glm::determinant(unit) < -rounding;
+}
+
+glm::dmat3 cofactor(const glm::dmat3& m) {
+    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
+}
+
+double largest_column(const glm::dmat3& m) {
+    return std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
+}
+
+bool is_well_conditioned(const glm::dmat3& m) {
+    const glm::dmat3 unit = m / largest_entry(m);
+    const double size = frobenius(unit);
+    const double volume = std::abs(glm::determinant(unit));
+    // Under the largest condition a volume is 2e-7 of the size cubed. Far below, cofactors and determinant are rounding.
+    return volume > 1e-7 * size * size * size && size * frobenius(cofactor(unit)) < largest_condition * volume;
+}
+
+std::optional<glm::dmat3> thickened(const glm::dmat3& m) {
+    const SingularValues s = singular_values(m);
+    if (!(s.values.y > rounding * s.values.x)) {
+        return std::nullopt;
+    }
+    const double least = least_thickness * s.values.x;
+    if (s.values.z >= least) {
+        return m;
+    }
+    glm::dmat3 thick(0);
+    for (int i = 0; i < 3; ++i) {
+        thick += glm::outerProduct(std::max(s.values[i], least) * s.left[i], s.right[i]);
+    }
+    return thick;
+}
+
+}  // namespace diptych

@@ -1,0 +1,61 @@
+// Shapes that a transform flattens: matrices with no inverse, or none in single precision.
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "case_scenes.h"
+#include "references.h"
+
+namespace diptych::stability {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Below the middle of a square lamp as wide as it is high, which a scale of `thickness` makes of a slanted rectangle.
+/// Everything is turned, so that no axis of the matrix is one of the world.
+Measured measure_flattened_lamp(Backend& backend, double thickness, bool moves, Effort effort) {
+    const double slant = 35 * pi / 180;
+    const glm::dmat4 turned = glm::rotate(glm::rotate(glm::dmat4(1), 0.7, {0.0, 0.0, 1.0}), 0.4, {1.0, 0.0, 0.0});
+    Scene scene;
+    scene.name = "flattened lamp";
+    add_material(scene, diffuse(0.5F));
+    const int lamp = add_material(scene, make_emitter("lamp", glm::vec3(1)));
+    add_object(scene, "floor", {level_square(dvec3(0), 10, true, 0)}, turned);
+    const glm::dmat4 flat = glm::scale(glm::dmat4(1), dvec3(1, thickness, 1 / std::cos(slant)));
+    const glm::dmat4 slanted = glm::rotate(glm::dmat4(1), slant, dvec3(1, 0, 0));
+    add_object(scene, "lamp", {level_square(dvec3(0), 0.5, false, lamp)},
+               turned * translation(0, 1, 0) * flat * slanted);
+    if (moves) {
+        scene.nodes.emplace_back();
+        scene.instances.back().node = 0;
+    }
+    add_camera(scene, {0.9, 0.6, 0.3}, dvec3(0), 1e-3);
+    scene.cameras.back().camera_to_world = turned * scene.cameras.back().camera_to_world;
+    const Film film = render(backend, scene, settings_of(8, 8, 1), effort == Effort::quick ? 1024 : 65536);
+    return judge_mean(film, 0.5 / pi * square_irradiance(0.5, 1));
+}
+
+}  // namespace
+
+void add_flattened_cases(std::vector<Case>& cases) {
+    for (const bool moves : {false, true}) {
+        cases.push_back({"flattened transforms",
+                         moves ? "a lamp that moves, flattened to a thickness" : "a lamp flattened to a thickness",
+                         {"thickness", 0, 1e-6, false, 3, 11},
+                         0.003,
+                         "relative",
+                         [moves](Backend& b, double thickness, Effort e) {
+                             return measure_flattened_lamp(b, thickness, moves, e);
+                         }});
+    }
+    cases.push_back({"flattened transforms",
+                     "a lamp flattened to a thickness that fp32 hardly holds",
+                     {"thickness", 1e-38, 1e-7, true, 4, 32},
+                     0.003,
+                     "relative",
+                     [](Backend& b, double thickness, Effort e) {
+                         return measure_flattened_lamp(b, thickness, false, e);
+                     }});
+}
+
+}  // namespace diptych::stability
