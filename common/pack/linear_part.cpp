@@ -8,6 +8,7 @@ namespace diptych {
 namespace {
 
 constexpr double rounding = 1e-12;
+constexpr double flat = 1e-6;  // a share of the length, of fp32 vertices on a plane
 
 double largest_entry(const glm::dmat3& m) {
     double largest = 0;
@@ -50,7 +51,7 @@ glm::dvec3 any_across(const glm::dvec3& unit) {
 
 }  // namespace
 
-SingularValues singular_values(const glm::dmat3& m) {
+SingularValues singular_values(const glm::dmat3& m, bool mirrored) {
     const double scale = largest_entry(m);
     SingularValues found{glm::dmat3(1), glm::dvec3(0), glm::dmat3(1)};
     if (!(scale > 0)) {
@@ -77,7 +78,7 @@ SingularValues singular_values(const glm::dmat3& m) {
     const glm::dvec3 second = a[order[1]] - found.left[0] * glm::dot(found.left[0], a[order[1]]);
     const double length = glm::length(second);
     found.left[1] = length > 0 ? second / length : any_across(found.left[0]);
-    const bool flips = mirrors(m) != (glm::determinant(found.right) < 0);
+    const bool flips = mirrored != (glm::determinant(found.right) < 0);
     found.left[2] = glm::cross(found.left[0], found.left[1]) * (flips ? -1.0 : 1.0);
     return found;
 }
@@ -106,20 +107,29 @@ bool is_well_conditioned(const glm::dmat3& m) {
     return volume > 1e-7 * size * size * size && size * frobenius(cofactor(unit)) < largest_condition * volume;
 }
 
-std::optional<glm::dmat3> thickened(const glm::dmat3& m) {
-    const SingularValues s = singular_values(m);
+std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread) {
+    const double longest = std::max({spread.half.x, spread.half.y, spread.half.z});
+    glm::dmat3 shape(0);  // half axes in the world
+    for (int i = 0; i < 3; ++i) {
+        if (spread.half[i] > flat * longest) {
+            shape[i] = m * (spread.axes[i] * spread.half[i]);
+        }
+    }
+    const SingularValues s = singular_values(shape, mirrors(m));
     if (!(s.values.y > rounding * s.values.x)) {
         return std::nullopt;
     }
     const double least = least_thickness * s.values.x;
-    if (s.values.z >= least) {
-        return m;
-    }
     glm::dmat3 thick(0);
     for (int i = 0; i < 3; ++i) {
         thick += glm::outerProduct(std::max(s.values[i], least) * s.left[i], s.right[i]);
     }
-    return thick;
+    for (int i = 0; i < 3; ++i) {
+        // An axis that is thin both before and after may as well be wide before: the matrix then is better conditioned.
+        const bool matters = glm::length(shape[i]) > least;
+        thick[i] /= matters ? spread.half[i] : std::max(spread.half[i], least_thickness * longest);
+    }
+    return thick * glm::transpose(spread.axes);
 }
 
 }  // namespace diptych

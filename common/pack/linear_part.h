@@ -14,8 +14,8 @@ struct SingularValues {
 };
 
 /// By rotations from the right (Hestenes 1958), which keep the digits of small values. Where a value is 0, the left
-/// vector completes the others; the last one so that the rotations mirror as `mirrors` says.
-SingularValues singular_values(const glm::dmat3& m);
+/// vector completes the others; the last one so that the product mirrors as told.
+SingularValues singular_values(const glm::dmat3& m, bool mirrored);
 
 /// Whether it turns right hands into left ones. A determinant that is rounding, 1e-12 of the columns' lengths, does
 /// not: its sign says nothing about the file.
@@ -38,8 +38,15 @@ bool is_well_conditioned(const glm::dmat3& m);
 /// as much as fp32 then errs in the silhouette.
 inline constexpr double least_thickness = 2.5e-4;
 
-/// `m`, with singular values below `least_thickness` of the largest raised to that, so that it has an inverse in fp32.
-/// Nothing where `m` leaves no area: two values are 0 or 1e-12 of the largest.
-std::optional<glm::dmat3> thickened(const glm::dmat3& m);
+/// How far a shape reaches along axes of its own, about its middle.
+struct Spread {
+    glm::dmat3 axes{1};  // orthonormal, right-handed
+    glm::dvec3 half{0};
+};
+
+/// `m`, changed where it makes the shape thinner than `least_thickness` of its length, so that it is that thin and `m` has
+/// an inverse in fp32. What `m` does along an axis in which the shape is flat already does not matter. Nothing where
+/// no area is left.
+std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread);
 
 }  // namespace diptych

@@ -52,17 +52,24 @@ void turn(std::vector<glm::vec4>& tangents, const glm::dmat3& m) {
     }
 }
 
-Box world_box(const Mesh& mesh, const glm::dmat4& to_world) {
-    Box box;
+template <typename Visit>
+void each_corner(const Mesh& mesh, const Visit& visit) {
     for (const Primitive& primitive : mesh.primitives) {
         for (const glm::uvec3& t : primitive.triangles) {
             for (int k = 0; k < 3; ++k) {
-                const glm::dvec3 p(to_world * glm::dvec4(primitive.positions[t[k]], 1));
-                box.low = glm::min(box.low, p);
-                box.high = glm::max(box.high, p);
+                visit(primitive.positions[t[k]]);
             }
         }
     }
+}
+
+Box world_box(const Mesh& mesh, const glm::dmat4& to_world) {
+    Box box;
+    each_corner(mesh, [&](const glm::vec3& position) {
+        const glm::dvec3 p(to_world * glm::dvec4(position, 1));
+        box.low = glm::min(box.low, p);
+        box.high = glm::max(box.high, p);
+    });
     return box;
 }
 
@@ -111,6 +118,27 @@ double unit_of(const Box& box, const glm::dvec3& center) {
                                                                              : 1.0;
 }
 
+/// Principal axes, and how far the mesh reaches along them.
+void find_spread(const Mesh& mesh, MeshFrame& frame) {
+    const auto packed = [&](const glm::vec3& p) { return (glm::dvec3(p) - frame.center) / frame.unit; };
+    glm::dmat3 covariance(0);
+    each_corner(mesh, [&](const glm::vec3& p) {
+        const glm::dvec3 from_middle = packed(p) - frame.middle;
+        covariance += glm::outerProduct(from_middle, from_middle);
+    });
+    glm::dmat3 axes = singular_values(covariance, false).right;
+    axes[2] = glm::cross(axes[0], axes[1]);
+    glm::dvec3 low(1e300);
+    glm::dvec3 high(-1e300);
+    each_corner(mesh, [&](const glm::vec3& p) {
+        const glm::dvec3 along = glm::transpose(axes) * packed(p);
+        low = glm::min(low, along);
+        high = glm::max(high, along);
+    });
+    frame.middle = axes * (0.5 * (low + high));
+    frame.spread = {axes, 0.5 * (high - low)};
+}
+
 /// Both lists of one mesh; either may be empty.
 std::vector<LeftOut> joined(std::vector<LeftOut> a, const std::vector<LeftOut>& b) {
     a.resize(std::max(a.size(), b.size()));
@@ -131,8 +159,8 @@ PlannedMesh as_it_is(const Mesh& mesh, const std::vector<LeftOut>& left_out) {
     planned.frame.center = center_of(box);
     planned.frame.unit = unit_of(box, planned.frame.center);
     if (box.low.x <= box.high.x) {
-        planned.frame.low = (box.low - planned.frame.center) / planned.frame.unit;
-        planned.frame.high = (box.high - planned.frame.center) / planned.frame.unit;
+        planned.frame.middle = (0.5 * (box.low + box.high) - planned.frame.center) / planned.frame.unit;
+        planned.frame.spread.half = 0.5 * (box.high - box.low) / planned.frame.unit;
     }
     return planned;
 }
@@ -150,6 +178,7 @@ public:
                 plan_.meshes[static_cast<std::size_t>(mesh)].users.push_back(i);
             }
         }
+        find_spreads();
         warn(duplicates_.count, "triangles repeat others, with the same vertices on the same side; left out");
         warn(without_area_, "instances are flattened to a line or a point by their transforms; left out");
         warn(tiny_, "instances are too small to be seen; left out");
@@ -164,14 +193,12 @@ private:
     }
 
     void add_meshes() {
-        std::vector<Box> boxes;
         std::size_t triangles = 0;
         for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
             plan_.meshes.push_back(as_it_is(scene_.meshes[i], duplicates_.of_meshes[i]));
-            boxes.push_back(box_of(*plan_.meshes.back().mesh));
             triangles += triangle_count(scene_.meshes[i]);
         }
-        plan_.reach = scene_reach(scene_, boxes, origin_);
+        plan_.reach = scene_reach(scene_, plan_.meshes, origin_);
         copies_left_ = std::max(fewest_copied, triangles);
         uses_.resize(scene_.meshes.size(), 0);
         for (const Instance& instance : scene_.instances) {
@@ -225,6 +252,20 @@ private:
             return none;
         }
         return add(std::move(planned));
+    }
+
+    /// Of meshes that instances may flatten: about axes of their own, so that what is flat is known to be.
+    void find_spreads() {
+        for (PlannedMesh& planned : plan_.meshes) {
+            const bool flattened =
+                std::any_of(planned.users.begin(), planned.users.end(), [&](std::size_t user) {
+                    const Instance& instance = scene_.instances[user];
+                    return instance.node != none || !is_well_conditioned(glm::dmat3(instance.object_to_world));
+                });
+            if (flattened && !planned.frame.in_world) {
+                find_spread(*planned.mesh, planned.frame);
+            }
+        }
     }
 
     void require_unseen(const Instance& instance, double size, double distance) const {

@@ -108,10 +108,9 @@ std::optional<double> place_instance(const Instance& instance, const glm::dvec3&
     glm::dvec3 moved = frame.in_world ? frame.center - origin : glm::dvec3(m[3]) - origin + linear * frame.center;
     bool shown = true;
     if (!frame.in_world && !is_well_conditioned(packed_linear)) {
-        const std::optional<glm::dmat3> thick = thickened(packed_linear);
-        const glm::dvec3 middle = 0.5 * (frame.low + frame.high);
+        const std::optional<glm::dmat3> thick = thickened(packed_linear, frame.spread);
         shown = MUTANT(THICKENED_HIDDEN, thick.has_value(), false);
-        moved += (packed_linear - thick.value_or(packed_linear)) * middle;
+        moved += (packed_linear - thick.value_or(packed_linear)) * frame.middle;
         packed_linear = thick.value_or(packed_linear);
     }
     const auto row = [&](int r) {

@@ -43,8 +43,7 @@ double reach_now(const Scene& scene, const PackedScene& packed) {
         if (instance.node == none) {
             continue;
         }
-        const Box box{frame.center + frame.unit * frame.low, frame.center + frame.unit * frame.high};
-        const double own = reach_of(box, instance.object_to_world, packed.origin);
+        const double own = reach_of(frame, instance.object_to_world, packed.origin);
         require_near(scene, "instance '" + instance.name + "'", "reaches", own);
         reach = std::max(reach, own);
     }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pack/linear_part.h"
 #include "render/settings.h"
 #include "scene/scene.h"
 #include "scene_buffers.h"
@@ -29,8 +30,8 @@ struct GeometryExtent {
 struct MeshFrame {
     glm::dvec3 center{0};
     double unit = 1;
-    glm::dvec3 low{0};  // box around what is packed
-    glm::dvec3 high{0};
+    glm::dvec3 middle{0};   // of what is packed
+    Spread spread;          // of that about its middle
     bool in_world = false;  // of an instance that stands still under a matrix without a good inverse
 };
 

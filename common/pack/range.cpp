@@ -17,11 +17,12 @@ std::string metres(double length) {
 
 }  // namespace
 
-double reach_of(const Box& box, const glm::dmat4& to_world, const glm::dvec3& origin) {
+double reach_of(const MeshFrame& frame, const glm::dmat4& to_world, const glm::dvec3& origin) {
     double reach = 0;
-    for (int i = 0; i < 8 && box.low.x <= box.high.x; ++i) {
-        const glm::dvec3 corner((i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
-                                (i & 4) != 0 ? box.high.z : box.low.z);
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 side((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+        const glm::dvec3 packed = frame.middle + frame.spread.axes * (side * frame.spread.half);
+        const glm::dvec3 corner = frame.center + frame.unit * packed;
         const glm::dvec3 from_origin = glm::dvec3(to_world * glm::dvec4(corner, 1)) - origin;
         const double distance = std::hypot(from_origin.x, from_origin.y, from_origin.z);
         reach = distance <= reach ? reach : distance;  // NaN stays
@@ -29,10 +30,11 @@ double reach_of(const Box& box, const glm::dmat4& to_world, const glm::dvec3& or
     return reach;
 }
 
-double scene_reach(const Scene& scene, const std::vector<Box>& boxes, const glm::dvec3& origin) {
+double scene_reach(const Scene& scene, const std::vector<PlannedMesh>& meshes, const glm::dvec3& origin) {
     double reach = 1;
     for (const Instance& instance : scene.instances) {
-        const double own = reach_of(boxes[static_cast<std::size_t>(instance.mesh)], instance.object_to_world, origin);
+        const MeshFrame& frame = meshes[static_cast<std::size_t>(instance.mesh)].frame;
+        const double own = reach_of(frame, instance.object_to_world, origin);
         require_near(scene, "instance '" + instance.name + "'", "reaches", own);
         reach = std::max(reach, own);
     }

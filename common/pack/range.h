@@ -12,11 +12,12 @@ inline constexpr double farthest = 1e12;
 /// What is smaller is a point: left out where it cannot be seen from the camera, else refused. Metres.
 inline constexpr double smallest = 1e-14;
 
-/// The largest distance from `origin` of a corner of this box under this transform. Infinite or NaN where it is.
-double reach_of(const Box& box, const glm::dmat4& to_world, const glm::dvec3& origin);
+/// How far from `origin` a mesh of this frame reaches under this transform, by the box of its spread. Infinite or NaN
+/// where it does.
+double reach_of(const MeshFrame& frame, const glm::dmat4& to_world, const glm::dvec3& origin);
 
 /// The largest distance of any instance; at least 1. Throws Error naming the instance beyond `farthest`.
-double scene_reach(const Scene& scene, const std::vector<Box>& boxes, const glm::dvec3& origin);
+double scene_reach(const Scene& scene, const std::vector<PlannedMesh>& meshes, const glm::dvec3& origin);
 
 /// Throws Error unless 0 <= distance <= `farthest`. `object` as in "camera 'main'", `what` as in "stands".
 void require_near(const Scene& scene, const std::string& object, const char* what, double distance);

@@ -108,7 +108,8 @@ long peak_kibibytes() {
     return usage.ru_maxrss;
 }
 
-void compare_chains(Standing standing, int scenes, double rounding) {
+/// `rounding` against the oracle, `apart` between the panels: of a cell's mean.
+void compare_chains(Standing standing, int scenes, double rounding, double apart) {
     Worst worst;
     for (int seed = 0; seed < scenes; ++seed) {
         INFO("scene " << seed);
@@ -119,7 +120,7 @@ void compare_chains(Standing standing, int scenes, double rounding) {
     std::printf("%d chains, %d visible: %.2f sigmas from the oracle, panels %.1e apart\n", scenes * cells * cells,
                 worst.visible, worst.sigmas, worst.same_seed);
     CHECK(worst.visible > scenes * cells * cells / 3);
-    CHECK(worst.same_seed < 2e-3);
+    CHECK(worst.same_seed < apart);
     CHECK(peak_kibibytes() < 2L << 20);
 }
 
@@ -127,10 +128,11 @@ void compare_chains(Standing standing, int scenes, double rounding) {
 
 TEST_CASE("Shapes under random affine chains are what the oracle shows") {
     NEED_VULKAN();
-    compare_chains(Standing::still, 14, 1e-4);
+    compare_chains(Standing::still, 14, 1e-4, 5e-4);
 }
 
 TEST_CASE("Moving shapes under random affine chains are what the oracle shows") {
     NEED_VULKAN();
-    compare_chains(Standing::moving, 6, 1e-3);
+    // The panels invert matrices of condition 4000 in fp32, each in its own way: silhouettes differ by a few samples.
+    compare_chains(Standing::moving, 6, 1e-3, 1e-2);
 }

@@ -36,7 +36,7 @@ TEST_CASE("Singular values and vectors make the matrix, and the vectors are orth
     std::mt19937 random(3);
     for (int i = 0; i < 20000; ++i) {
         const glm::dmat3 m = random_matrix(random);
-        const SingularValues s = singular_values(m);
+        const SingularValues s = singular_values(m, mirrors(m));
         glm::dmat3 again(0);
         for (int k = 0; k < 3; ++k) {
             again += glm::outerProduct(s.values[k] * s.left[k], s.right[k]);
@@ -48,11 +48,12 @@ TEST_CASE("Singular values and vectors make the matrix, and the vectors are orth
         REQUIRE(largest_difference(glm::transpose(s.left) * s.left, glm::dmat3(1)) < 1e-14);
         REQUIRE(largest_difference(glm::transpose(s.right) * s.right, glm::dmat3(1)) < 1e-14);
     }
-    CHECK(singular_values(glm::dmat3(0)).values == glm::dvec3(0));
+    CHECK(singular_values(glm::dmat3(0), false).values == glm::dvec3(0));
 }
 
 TEST_CASE("Thickened matrices keep what they were and have an inverse") {
     const auto diagonal = [](double x, double y, double z) { return glm::dmat3(x, 0, 0, 0, y, 0, 0, 0, z); };
+    const Spread cube{glm::dmat3(1), glm::dvec3(1)};
     CHECK(is_well_conditioned(diagonal(1, 2, 3)));
     CHECK(is_well_conditioned(diagonal(1e-200, 2e-200, 3e-200)));
     CHECK(!is_well_conditioned(diagonal(1, 1, 1e-4)));
@@ -60,11 +61,16 @@ TEST_CASE("Thickened matrices keep what they were and have an inverse") {
     CHECK(!is_well_conditioned(glm::dmat3(0)));
     const glm::dvec3 along(0.30238010859754544, 0.34341193197561526, 0.21799913662296608);
     CHECK(!is_well_conditioned(glm::dmat3(along, -0.15 * along, 0.0149 * along)));
-    CHECK(!thickened(glm::dmat3(along, -0.15 * along, 0.0149 * along)));
-    CHECK(thickened(diagonal(1, 0.5, 0.01)).value() == diagonal(1, 0.5, 0.01));
-    CHECK(largest_difference(thickened(diagonal(20, 0, 20)).value(), diagonal(20, 20 * least_thickness, 20)) < 1e-12);
-    CHECK(!thickened(diagonal(0, 0, 5)));
-    CHECK(!thickened(glm::dmat3(0)));
+    CHECK(!thickened(glm::dmat3(along, -0.15 * along, 0.0149 * along), cube));
+    const auto thick = [&](const glm::dmat3& m, const Spread& spread) { return thickened(m, spread).value(); };
+    CHECK(largest_difference(thick(diagonal(1, 0.5, 0.01), cube), diagonal(1, 0.5, 0.01)) < 1e-15);
+    CHECK(largest_difference(thick(diagonal(20, 0, 20), cube), diagonal(20, 20 * least_thickness, 20)) < 1e-12);
+    CHECK(!thickened(diagonal(0, 0, 5), cube));
+    CHECK(!thickened(glm::dmat3(0), cube));
+    // A square does not care for what is across it.
+    const Spread square{glm::dmat3(1), glm::dvec3(1, 1, 0)};
+    CHECK(largest_difference(thick(diagonal(1, 1, 1e9), square), diagonal(1, 1, 1)) < 1e-12);
+    CHECK(!thickened(diagonal(1, 0, 1), square));
     CHECK(mirrors(diagonal(1, -1, 1)));
     CHECK(mirrors(diagonal(1, -1e-18, 1e9)));
     CHECK(!mirrors(diagonal(1, 0, 1)));
