@@ -133,6 +133,7 @@ TEST_CASE("Of two triangles in one place both panels meet the first") {
                                                 : glm::uvec3(first, first + 1, first + 2));
         }
     }
+    bright.material = 0;
     dim.material = 1;
     add_object(scene, "bright", {bright, dim});
     scene.cameras.push_back(make_camera("camera", {0, 0, 5}, {0, 0, 0}, 30));
