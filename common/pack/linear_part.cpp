@@ -125,7 +125,7 @@ std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread) {
         thick += glm::outerProduct(std::max(s.values[i], least) * s.left[i], s.right[i]);
     }
     for (int i = 0; i < 3; ++i) {
-        // An axis that is thin both before and after may as well be wide before: the matrix then is better conditioned.
+        // An axis that is thin before and after may as well be wide before: the matrix is better conditioned then.
         const bool matters = glm::length(shape[i]) > least;
         thick[i] /= matters ? spread.half[i] : std::max(spread.half[i], least_thickness * longest);
     }

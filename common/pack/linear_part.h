@@ -44,8 +44,8 @@ struct Spread {
     glm::dvec3 half{0};
 };
 
-/// `m`, changed where it makes the shape thinner than `least_thickness` of its length, so that it is that thin and `m` has
-/// an inverse in fp32. What `m` does along an axis in which the shape is flat already does not matter. Nothing where
+/// `m`, changed where it makes the shape thinner than `least_thickness` of its length: the shape is that thin then, and
+/// the matrix has an inverse in fp32. What `m` does along an axis in which the shape is flat already does not matter. Nothing where
 /// no area is left.
 std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread);
 

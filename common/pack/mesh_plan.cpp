@@ -272,8 +272,8 @@ private:
         const double width = camera_ != nullptr && camera_->orthographic ? camera_->orthographic_height : distance;
         if (camera_ != nullptr && !(size < 1e-6 * width)) {
             char text[120];
-            std::snprintf(text, sizeof text, "is %.3g m across, which single precision cannot render: scale the scene up",
-                          size);
+            std::snprintf(text, sizeof text,
+                          "is %.3g m across, which single precision cannot render: scale the scene up", size);
             throw Error(scene_.name + ": instance '" + instance.name + "': " + text);
         }
     }

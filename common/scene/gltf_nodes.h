@@ -26,7 +26,7 @@ NodeTree read_nodes(Document& document);
 /// "nodes[3] (name)".
 std::string node_label(const Document& document, int node);
 
-/// What pose.h's rigid_placement or light_placement found for this node. Throws Error in its name where that is nothing.
+/// What pose.h's rigid_placement or light_placement found for this node. Throws Error where that is nothing.
 glm::dmat4 require_direction(const Document& document, const std::optional<glm::dmat4>& placed, int node);
 
 }  // namespace diptych::gltf

@@ -24,8 +24,8 @@ Camera camera_at(const Scene& scene, std::size_t camera, double seconds);
 /// axis has length 0.
 std::optional<glm::dmat4> rigid_part(const glm::dmat4& matrix);
 
-/// Where a camera or a light of this node stands and looks. Scale neither turns nor moves it within its node, and one of
-/// 0 does not either: the direction is then that of the nodes' rotations. `to_world` of the node. Nothing where a
+/// Where a camera or a light of this node stands and looks. Scale does not turn it, and one of 0 does not either: the
+/// direction is then that of the nodes' rotations. `to_world` of the node. Nothing where a
 /// node's matrix leaves no direction.
 std::optional<glm::dmat4> rigid_placement(const std::vector<Node>& nodes, int node, const glm::dmat4& to_world);
 

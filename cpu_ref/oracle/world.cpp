@@ -79,7 +79,8 @@ World make_world(const Scene& scene) {
             if (duplicates.met_before(instance, primitive, vertex) || !has_area(triangle)) {
                 continue;
             }
-            triangle.front = normalize(cross(triangle.ab, triangle.ac)) * (world.frames[instance].mirrored ? -1.0 : 1.0);
+            const double side = world.frames[instance].mirrored ? -1 : 1;
+            triangle.front = side * normalize(cross(triangle.ab, triangle.ac));
             triangle.vertex = vertex;
             triangle.primitive = &primitive;
             triangle.material = &scene.materials[std::size_t(primitive.material)];

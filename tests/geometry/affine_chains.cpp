@@ -88,8 +88,8 @@ void compare_cells(const Films& films, double rounding, Worst& worst) {
         const MeanAndError vulkan = cell(films.vulkan);
         const MeanAndError oracle = cell(films.oracle);
         for (const MeanAndError& panel : {cpu, vulkan}) {
-            const double sigmas =
-                std::max(std::abs(panel.mean - oracle.mean) - rounding, 0.0) / std::hypot(panel.error, oracle.error, 1e-9);
+            const double off = std::max(std::abs(panel.mean - oracle.mean) - rounding, 0.0);
+            const double sigmas = off / std::hypot(panel.error, oracle.error, 1e-9);
             if (sigmas > 5) {
                 INFO("cell " << i << ": cpu " << cpu.mean << " vulkan " << vulkan.mean << " oracle " << oracle.mean << " ± "
                              << oracle.error);
