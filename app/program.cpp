@@ -8,7 +8,6 @@
 #include "backend.h"
 #include "command.h"
 #include "error.h"
-#include "image/near_miss.h"
 #include "program.h"
 #include "report.h"
 #include "suggestion.h"
@@ -24,16 +23,6 @@ constexpr const char* program_examples = R"(Examples:
   diptych compare cpu.exr vulkan.exr -o difference.png
   diptych COMMAND --help
 Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 no suitable device, 130 interrupted)";
-
-/// A message "FILE: …: no such file", with the nearest name of a file that is there.
-std::string with_near_miss(const std::string& message) {
-    const std::string missing = ": no such file";
-    const std::size_t tail = message.rfind(missing);
-    if (tail == std::string::npos || tail + missing.size() != message.size()) {
-        return message;
-    }
-    return message + did_you_mean_file(message.substr(0, message.find(": ")));
-}
 
 int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
     std::string message = one_line(error.what());
@@ -81,7 +70,7 @@ int run_program(int argc, char** argv) {
         report_error(error.what());
         return exit_no_device;
     } catch (const Error& error) {
-        report_error(with_near_miss(error.what()));
+        report_error(error.what());
         return exit_bad_input;
     } catch (const std::bad_alloc&) {
         report_error("not enough memory");

@@ -10,6 +10,7 @@
 
 #include "error.h"
 #include "image/image_file.h"
+#include "image/near_miss.h"
 #include "image/picture_layers.h"
 #include "image/radiance_file.h"
 #include "image/size_claim.h"
@@ -35,7 +36,7 @@ namespace fs = std::filesystem;
 void check_file(const fs::path& path) {
     std::error_code error;
     if (!fs::exists(path, error))
-        fail("no such file");
+        fail("no such file" + did_you_mean_file(path));
     if (fs::is_directory(path, error))
         fail("it is a folder, not a file");
     if (!fs::is_regular_file(path, error))

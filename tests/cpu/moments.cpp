@@ -36,7 +36,7 @@ Scene sliding_square() {
     scene.instances[0].node = 0;
     scene.animations = {{"",
                          {{AnimatedProperty::translation, 0, Interpolation::linear, {0, 1}, {0, 0, 0, 10, 0, 0}},
-                          {AnimatedProperty::scale, 0, Interpolation::step, {0, 2}, {1, 1, 1, 1, 0, 1}}}}};
+                          {AnimatedProperty::scale, 0, Interpolation::step, {0, 1.5F, 2}, {1, 1, 1, 1, 0, 1, 1, 0, 0}}}}};
     return scene;
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("A renderer may go on with a copy of the scene, and keeps film and see
     CHECK_THROWS_AS(renderer->move_to(fewer), Error);
 }
 
-TEST_CASE("Embree follows instances, keeps the moment before where asked, and hits nothing flat") {
+TEST_CASE("Embree follows instances, keeps the moment before where asked, and hits nothing without area") {
     Scene scene = sliding_square();
     RenderSettings settings = small_settings(Integrator::path);
     settings.moves = true;
@@ -120,7 +120,7 @@ TEST_CASE("Embree follows instances, keeps the moment before where asked, and hi
     embree.move_to(packed);
     CHECK_FALSE(blocked_at(10, false));
     CHECK(blocked_at(2.5, true));
-    pose_scene(scene, 1);
+    pose_scene(scene, 1.5);  // flattened along its normal: the same square
     pack_moment(scene, settings, packed);
     embree.move_to(packed);
     CHECK(blocked_at(10, false));

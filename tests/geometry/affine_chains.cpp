@@ -18,6 +18,8 @@ namespace {
 constexpr int cells = 10;  // a side
 constexpr int cell_pixels = 8;
 constexpr int side = cells * cell_pixels;
+constexpr int spp = 16;
+constexpr int cell_samples = cell_pixels * cell_pixels * spp;
 
 /// Whether instances hang in nodes that move: those cannot have vertices in the world.
 enum class Standing { still, moving };
@@ -74,7 +76,7 @@ Scene chains_scene(int seed, Standing standing) {
 
 struct Worst {
     double sigmas = 0;  // from the oracle
-    double same_seed = 0;  // between the panels
+    double same_seed = 0;  // between the panels, in samples of a cell as bright as white
     int visible = 0;
 };
 
@@ -97,7 +99,7 @@ void compare_cells(const Films& films, double rounding, Worst& worst) {
             }
             worst.sigmas = std::max(worst.sigmas, sigmas);
         }
-        worst.same_seed = std::max(worst.same_seed, std::abs(cpu.mean - vulkan.mean));
+        worst.same_seed = std::max(worst.same_seed, std::abs(cpu.mean - vulkan.mean) * cell_samples);
         worst.visible += oracle.mean > 1e-3 ? 1 : 0;
     }
 }
@@ -108,19 +110,19 @@ long peak_kibibytes() {
     return usage.ru_maxrss;
 }
 
-/// `rounding` against the oracle, `apart` between the panels: of a cell's mean.
+/// `rounding` against the oracle: of a cell's mean. `apart`: samples of a cell that may decide otherwise on the other panel.
 void compare_chains(Standing standing, int scenes, double rounding, double apart) {
     Worst worst;
     for (int seed = 0; seed < scenes; ++seed) {
         INFO("scene " << seed);
-        const Films films = render_everywhere(chains_scene(seed, standing), geometry_settings(side, side, 1), 16);
+        const Films films = render_everywhere(chains_scene(seed, standing), geometry_settings(side, side, 1), spp);
         CHECK(count_nonfinite(films) == 0);
         compare_cells(films, rounding, worst);
     }
-    std::printf("%d chains, %d visible: %.2f sigmas from the oracle, panels %.1e apart\n", scenes * cells * cells,
+    std::printf("%d chains, %d visible: %.2f sigmas from the oracle, panels %.1f samples apart\n", scenes * cells * cells,
                 worst.visible, worst.sigmas, worst.same_seed);
     CHECK(worst.visible > scenes * cells * cells / 3);
-    CHECK(worst.same_seed < apart);
+    CHECK(worst.same_seed <= apart);
     CHECK(peak_kibibytes() < 2L << 20);
 }
 
@@ -128,11 +130,11 @@ void compare_chains(Standing standing, int scenes, double rounding, double apart
 
 TEST_CASE("Shapes under random affine chains are what the oracle shows") {
     NEED_VULKAN();
-    compare_chains(Standing::still, 14, 1e-4, 5e-4);
+    compare_chains(Standing::still, 14, 1e-4, 2);
 }
 
 TEST_CASE("Moving shapes under random affine chains are what the oracle shows") {
     NEED_VULKAN();
     // The panels invert matrices of condition 4000 in fp32, each in its own way: silhouettes differ by a few samples.
-    compare_chains(Standing::moving, 6, 1e-3, 1e-2);
+    compare_chains(Standing::moving, 6, 1e-3, 10);
 }

@@ -102,7 +102,7 @@ std::map<std::string, Offsets> cpp_offsets() {
         {"RenderConstants",
          {FIELD(RenderConstants, camera), FIELD(RenderConstants, environment), FIELD(RenderConstants, size),
           FIELD(RenderConstants, seed), FIELD(RenderConstants, sampler_kind), FIELD(RenderConstants, sample_count),
-          FIELD(RenderConstants, max_depth), FIELD(RenderConstants, integrator), FIELD(RenderConstants, brdf),
+          FIELD(RenderConstants, max_depth), FIELD(RenderConstants, integrator), FIELD(RenderConstants, brdf), FIELD(RenderConstants, normal_maps),
           FIELD(RenderConstants, mis), FIELD(RenderConstants, light_count),
           FIELD(RenderConstants, emissive_triangle_count), FIELD(RenderConstants, punctual_light_count),
           FIELD(RenderConstants, light_cluster_count), FIELD(RenderConstants, atlas_tile),
