@@ -11,7 +11,9 @@ namespace {
 // For instances, and cameras, that move after the structures were built.
 constexpr double room = 0x1p12;
 
-constexpr int most_doublings = 96;  // vertices, and matrices, stay normal numbers
+// A mesh is at least so wide in its unit. Drivers multiply edges: products of edges of 2^-63 vanish in fp32, and with
+// them the triangle.
+constexpr double least_width = 0x1p-40;
 
 double norm(const glm::dmat3& m) {
     return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
@@ -32,10 +34,28 @@ double needed_factor(const glm::dmat3& a, double reach) {
     return (reach + norm(a)) * norm(a) * inverse * inverse;
 }
 
+/// The largest coordinate of each mesh's vertices.
+std::vector<double> mesh_widths(const PackedScene& packed) {
+    std::vector<double> widths;
+    for (const MeshRange& mesh : packed.meshes) {
+        double width = 0;
+        for (std::uint32_t g = mesh.first_geometry; g < mesh.first_geometry + mesh.geometry_count; ++g) {
+            const std::uint32_t first = packed.geometries[g].first_vertex;
+            for (std::uint32_t v = first; v < first + packed.geometry_extents[g].vertex_count; ++v) {
+                const shared::vec3 p = shared::abs(packed.positions[v]);
+                width = std::max(width, static_cast<double>(std::max(p.x, std::max(p.y, p.z))));
+            }
+        }
+        widths.push_back(width);
+    }
+    return widths;
+}
+
 }  // namespace
 
 std::vector<float> mesh_units(const PackedScene& packed, const InstanceGroups& groups) {
     std::vector<float> units(packed.meshes.size(), 1.0F);
+    const std::vector<double> widths = mesh_widths(packed);
     double reach = 0;
     for (const shared::Instance& instance : packed.instances) {
         reach = std::max(reach, distance(instance));
@@ -44,10 +64,12 @@ std::vector<float> mesh_units(const PackedScene& packed, const InstanceGroups& g
         if (!is_shown(packed, i) || is_grouped(groups, i)) {
             continue;
         }
-        const double doublings = std::ceil(std::log2(room * needed_factor(linear_part(packed.instances[i]), reach)));
-        if (std::isfinite(doublings)) {  // a singular matrix has no inverse to be rounded
-            float& unit = units[packed.instance_meshes[i]];
-            unit = std::max(unit, std::ldexp(1.0F, std::clamp(static_cast<int>(doublings), 0, most_doublings)));
+        const std::uint32_t mesh = packed.instance_meshes[i];
+        const double wanted = std::ceil(std::log2(room * needed_factor(linear_part(packed.instances[i]), reach)));
+        const double most = std::floor(std::log2(widths[mesh] / least_width));
+        const double doublings = std::min(wanted, most);
+        if (doublings > 0 && std::isfinite(doublings)) {  // a singular matrix has no inverse to be rounded
+            units[mesh] = std::max(units[mesh], std::ldexp(1.0F, static_cast<int>(doublings)));
         }
     }
     return MUTANT(MESHES_IN_OWN_UNITS, units, std::vector<float>(packed.meshes.size(), 1.0F));
