@@ -78,7 +78,7 @@ FN FirstSurface load_first_surface(uvec2 pixel, IN(ResamplingPass) pass, IN(Hit)
 /// What light points are picked for: the surface as others see it, and, where none will, white paper behind it, lest the true lobes be where
 /// its narrow ones are not. Most such surfaces look at the integrand once more when they sample their material.
 FN TargetSurface picking_surface(IN(FirstSurface) first) {
-    TargetSurface s = unpack_reuse_surface(first.packed);
+    TargetSurface s = unpack_reuse_surface(first.packed, features());
     if (!first.reuses) {
         s.diffuse = s.diffuse + vec3(1.0f, 1.0f, 1.0f);
     }
@@ -117,7 +117,7 @@ FN Reservoir initial_reservoir(IN(Resampling) chosen) {
 
 /// The target of what is chosen in the end: the one that others can evaluate, or, where none will, the integrand itself.
 FN float candidate_target(IN(FirstSurface) first, IN(SeenLight) light, vec3 f) {
-    return first.reuses ? unoccluded_target(unpack_reuse_surface(first.packed), light)
+    return first.reuses ? unoccluded_target(unpack_reuse_surface(first.packed, features()), light)
                         : light.measure * luminance(f * light.radiance);
 }
 

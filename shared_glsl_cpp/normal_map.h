@@ -1,6 +1,6 @@
-// Shading by a normal map's normal, as glTF means it, kept free of its artefacts: reflections that would go below the surface, and light
-// that ends abruptly where it sinks below the surface (docs/integrand.md, "Normal maps"; docs/decisions/0020). World space, unit vectors; ng is
-// the triangle's normal on wo's side.
+// Shading by a normal map's normal, as glTF means it, kept free of its artefacts: reflections that would go below the
+// surface, and light that ends abruptly where it sinks below the surface (docs/integrand.md, "Normal maps";
+// docs/decisions/0020). World space, unit vectors; ng is the triangle's normal on wo's side.
 #ifndef NORMAL_MAP_H
 #define NORMAL_MAP_H
 

@@ -77,7 +77,7 @@ FN void add_bsdf_candidate(IN(CandidateRequest) request, IN(ResamplingPass) pass
     uvec2 pixel = uvec2(index % constants.size.x, index / constants.size.x);
     FirstVertex vertex = load_first_vertex(index);
     FirstSurface first = load_first_surface(pixel, pass, vertex.hit);
-    LightPicker picker = resume_light_picker(unpack_reuse_surface(first.packed), request);
+    LightPicker picker = resume_light_picker(unpack_reuse_surface(first.packed, features()), request);
     LightPointSample found = find_light_by_bsdf(first, picker, pass.iteration, vertex.rays);
     store_first_vertex(index, vertex);
     if (!(found.pdf > 0.0f)) {

@@ -34,7 +34,7 @@ FN Reservoir neighbor_reservoir(IN(Neighborhood) others, uint i) {
 }
 
 FN TargetSurface neighbor_surface(IN(Neighborhood) others, uint i) {
-    return unpack_reuse_surface(load_reuse_surface(others.surface_set, others.pixels[i]));
+    return unpack_reuse_surface(load_reuse_surface(others.surface_set, others.pixels[i]), features());
 }
 
 /// One random number for each merge of neighbour `i`; the canonical sample takes one of its own.

@@ -72,7 +72,7 @@ FN void reuse_temporal(uvec2 pixel, IN(ResamplingPass) pass) {
     }
     Sampler random = make_sampler(pixel, pass.frame, constants.seed, constants.sampler_kind, constants.sample_count);
     uint rays = 0u;
-    Reservoir merged = merge_reservoirs(unpack_reuse_surface(kept), load_reservoir(pass.reservoirs, index), others, random,
+    Reservoir merged = merge_reservoirs(unpack_reuse_surface(kept, features()), load_reservoir(pass.reservoirs, index), others, random,
                                         DIMENSION_TEMPORAL, rays);
     store_reservoir(pass.reservoirs, index, merged);
     count_rays(index, rays);
@@ -114,7 +114,7 @@ FN void reuse_spatial(uvec2 pixel, IN(ResamplingPass) pass) {
         }
     }
     uint rays = 0u;
-    Reservoir merged = merge_reservoirs(unpack_reuse_surface(kept), own, others, random,
+    Reservoir merged = merge_reservoirs(unpack_reuse_surface(kept, features()), own, others, random,
                                         DIMENSION_NEIGHBOR_PICK + dimension, rays);
     store_reservoir(pass.other_reservoirs, index, merged);
     count_rays(index, rays);

@@ -124,10 +124,10 @@ FN ReuseSurface pack_reuse_surface(vec3 position, IN(SurfaceBsdf) bsdf, vec3 wo)
     return s;
 }
 
-/// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it by the square of
-/// the ratio: a point that others chose by the wide lobe would be a firefly now and then, where sampling the material finds none. So it
-/// would where light comes by a narrow lobe of a microfacet normal map's tangent facet. Rounding of wo moves the half vector by as much more as the
-/// view is grazing.
+/// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it
+/// by the square of the ratio: a point that others chose by the wide lobe would be a firefly now and then, where
+/// sampling the material finds none. The same holds where light comes by a narrow lobe of a microfacet normal map's
+/// tangent facet. Rounding of wo moves the half vector the more, the more grazing the view is.
 FN bool wants_reuse(IN(SurfaceBsdf) bsdf, vec3 wo) {
     vec3 normal = reuse_normal(bsdf, wo);
     if (bsdf.mapped == NORMAL_MAP_SHADING) {
@@ -138,7 +138,8 @@ FN bool wants_reuse(IN(SurfaceBsdf) bsdf, vec3 wo) {
     return bsdf.parameters.alpha >= least && bsdf.parameters.alpha * dot(normal, wo) >= 0.5f * TARGET_ALPHA_MIN;
 }
 
-FN TargetSurface unpack_reuse_surface(IN(ReuseSurface) s) {
+/// `features`: bits of scene_features.h that may be needed; without normal maps their code is dropped.
+FN TargetSurface unpack_reuse_surface(IN(ReuseSurface) s, uint features) {
     TargetSurface t;
     t.position = s.position;
     t.geometric_normal = unpack_unit_vector(s.geometric_normal);
@@ -148,7 +149,7 @@ FN TargetSurface unpack_reuse_surface(IN(ReuseSurface) s) {
     t.f0 = unpack_color(s.f0);
     t.f90 = float((s.rest >> 8) & 255u) * (1.0f / 255.0f);
     t.alpha = max(float(s.rest >> 16) * (1.0f / 65535.0f), TARGET_ALPHA_MIN);
-    t.flags = s.rest & 255u;
+    t.flags = s.rest & ((features & FEATURE_NORMAL_MAPS) != 0u ? 255u : REUSE_SURFACE_VALID);
     t.specular_normal = t.normal;
     if ((t.flags & REUSE_SURFACE_MAPPED) != 0u) {
         t.specular_normal = specular_normal(t.normal, t.geometric_normal, t.wo);

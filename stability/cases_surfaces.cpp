@@ -36,7 +36,8 @@ Measured measure_interpolated(Backend& backend, double degrees, Effort effort, s
     for (MeasuredInput& p : inputs) {
         const dvec3 normal = direction(std::cos(tilt), 2 * pi * u.next());
         const dvec3 o = direction(std::pow(10.0, -6 * u.next()), 2 * pi * u.next());
-        p = mapped_input(o, map != shared::NORMAL_MAP_NONE ? dvec3(0, 0, 1) : normal, normal, 0.3 + 0.7 * u.next(), u.next() < 0.5 ? -1 : 1);
+        const dvec3 smooth = map != shared::NORMAL_MAP_NONE ? dvec3(0, 0, 1) : normal;
+        p = mapped_input(o, smooth, normal, 0.3 + 0.7 * u.next(), u.next() < 0.5 ? -1 : 1);
         p.n[0] = map;
         for (std::size_t k = 11; k < 15; ++k) {
             p.x[k] = static_cast<float>(u.next());

@@ -1,5 +1,5 @@
-// Attributes between vertices: constants stay constants, the tangent's sign is interpolated, and a tangent that gives no direction leaves the
-// normal map out.
+// Attributes between vertices: constants stay constants, the tangent's sign is interpolated, and a tangent that gives no
+// direction leaves the normal map out.
 #include <array>
 #include <cmath>
 
@@ -44,8 +44,8 @@ int add_texel(Scene& scene, const std::array<std::uint8_t, 4>& rgba) {
     return static_cast<int>(scene.textures.size()) - 1;
 }
 
-/// Lambertian, under a map whose normal leans along the bitangent by 30 degrees, lit from 45 degrees along +y: as bright as `along` where the
-/// tangent's sign is +1, as `against` where it is -1.
+/// Lambertian, under a map whose normal leans along the bitangent by 30 degrees, lit from 45 degrees along +y: as bright
+/// as `along` where the tangent's sign is +1, as `against` where it is -1.
 struct Leaning {
     Scene scene;
     double along;

@@ -71,7 +71,7 @@ FN ReuseSurface probe_reuse_surface(IN(ProbeInput) p) {
 }
 
 FN void probe_target(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
-    TargetSurface s = unpack_reuse_surface(probe_reuse_surface(p));
+    TargetSurface s = unpack_reuse_surface(probe_reuse_surface(p), 0xffffffffu);
     put_relative(o, s.alpha);
     put_relative(o, s.f90);
     float facing = dot(p.light, s.geometric_normal);
@@ -106,7 +106,7 @@ FN void probe_pack_surface(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     ReuseSurface s = pack_reuse_surface(p.vertex, probe_surface(p), p.view);
     put_same3(o, s.position);
     put_bits(o, s.rest & 0xffu);
-    TargetSurface t = unpack_reuse_surface(s);
+    TargetSurface t = unpack_reuse_surface(s, 0xffffffffu);
     put3(o, t.geometric_normal, 256.0f);
     put3(o, t.wo, 256.0f);
     put(o, t.alpha, 256.0f);

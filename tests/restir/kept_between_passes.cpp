@@ -107,7 +107,7 @@ TEST_CASE("A reservoir's target is that of its point at its surface, after every
                     return;
                 }
                 const auto light = chain.kernel.see_light_point(reservoir.point, kept.position, shared::MOMENT_CURRENT);
-                const float target = chain.kernel.unoccluded_target(shared::unpack_reuse_surface(kept), light);
+                const float target = chain.kernel.unoccluded_target(shared::unpack_reuse_surface(kept, ~0U), light);
                 wrong += std::abs(reservoir.target - target) <= 1e-6F * target ? 0 : 1;
                 ++checked;
             });
@@ -179,7 +179,7 @@ TEST_CASE("A picker that goes on from the sum over its clusters gives the densit
         if (!first.takes_light) {
             return;
         }
-        const auto surface = shared::unpack_reuse_surface(first.packed);
+        const auto surface = shared::unpack_reuse_surface(first.packed, ~0U);
         const auto made = chain.kernel.begin_light_picker(surface);
         const auto resumed = chain.kernel.resume_light_picker(surface, request);
         near += made.near > 0 ? 1 : 0;

@@ -46,7 +46,7 @@ double largest_log_ratio(double alpha, bool reusable, std::uint32_t seed) {
         }
         ++compared;
         const float truth = surface_bsdf_eval(s, wo, sample.direction, ~0u).x;
-        const TargetSurface packed = unpack_reuse_surface(pack_reuse_surface(vec3(0.0f, 0.0f, 0.0f), s, wo));
+        const TargetSurface packed = unpack_reuse_surface(pack_reuse_surface(vec3(0.0f, 0.0f, 0.0f), s, wo), ~0u);
         const float target = target_reflectance(packed, sample.direction).x;
         largest = std::max(largest, std::abs(std::log(static_cast<double>(truth) / static_cast<double>(target))));
     }
