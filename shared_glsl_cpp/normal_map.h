@@ -31,6 +31,9 @@ FN vec3 specular_normal(vec3 n, vec3 ng, vec3 wo) {
     // wo in the plane of ng and e is r (cos phi, sin phi); the angle 2a is phi + acos(least / r).
     float along = dot(wo, e);
     float r2 = cos_o * cos_o + along * along;
+    if (!(r2 > 0.0f)) {
+        return ng;  // wo lies along the surface, across the tilt
+    }
     float rest = safe_sqrt(r2 - least * least);
     float cos_2a = (cos_o * least - along * rest) / r2;
     float sin_2a = (along * least + cos_o * rest) / r2;

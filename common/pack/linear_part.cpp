@@ -107,7 +107,12 @@ bool is_well_conditioned(const glm::dmat3& m) {
     return volume > 1e-7 * size * size * size && size * frobenius(cofactor(unit)) < largest_condition * volume;
 }
 
-std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread) {
+namespace {
+
+/// The matrix that gives the shape other singular values: `changed` of those that it has under m. `least`: of the largest, below which an
+/// axis of the shape does not matter. Nothing where no area is left.
+template <typename Change>
+std::optional<glm::dmat3> with_values(const glm::dmat3& m, const Spread& spread, double least, const Change& changed) {
     const double longest = std::max({spread.half.x, spread.half.y, spread.half.z});
     glm::dmat3 shape(0);  // half axes in the world
     for (int i = 0; i < 3; ++i) {
@@ -119,17 +124,33 @@ std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread) {
     if (!(s.values.y > rounding * s.values.x)) {
         return std::nullopt;
     }
-    const double least = least_thickness * s.values.x;
+    const glm::dvec3 values = changed(s.values);
+    if (values == s.values) {
+        return m;
+    }
     glm::dmat3 thick(0);
     for (int i = 0; i < 3; ++i) {
-        thick += glm::outerProduct(std::max(s.values[i], least) * s.left[i], s.right[i]);
+        thick += glm::outerProduct(values[i] * s.left[i], s.right[i]);
     }
     for (int i = 0; i < 3; ++i) {
         // An axis that is thin before and after may as well be wide before: the matrix is better conditioned then.
-        const bool matters = glm::length(shape[i]) > least;
-        thick[i] /= matters ? spread.half[i] : std::max(spread.half[i], least_thickness * longest);
+        const bool matters = glm::length(shape[i]) > least * s.values.x;
+        thick[i] /= matters ? spread.half[i] : std::max(spread.half[i], least * longest);
     }
     return thick * glm::transpose(spread.axes);
+}
+
+}  // namespace
+
+std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread) {
+    return with_values(m, spread, least_thickness,
+                       [](const glm::dvec3& v) { return glm::max(v, glm::dvec3(least_thickness * v.x)); });
+}
+
+std::optional<glm::dmat3> with_sheets_apart(const glm::dmat3& m, const Spread& spread) {
+    return with_values(m, spread, least_gap, [](const glm::dvec3& v) {
+        return glm::dvec3(v.x, v.y, std::max(v.z, std::min(least_gap * v.x, v.y)));
+    });
 }
 
 }  // namespace diptych

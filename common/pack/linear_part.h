@@ -49,4 +49,12 @@ struct Spread {
 /// no area is left.
 std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread);
 
+/// Between the two sides of a flattened shape that stands still, as a share of its largest singular value: what rays in
+/// fp32 tell apart, so that they meet the side that faces them.
+inline constexpr double least_gap = 1e-5;
+
+/// `m`, changed where it brings the shape's two sides closer than `least_gap`: they are so far apart then, and nothing
+/// else is changed. Nothing where no area is left.
+std::optional<glm::dmat3> with_sheets_apart(const glm::dmat3& m, const Spread& spread);
+
 }  // namespace diptych

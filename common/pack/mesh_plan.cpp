@@ -14,10 +14,18 @@
 namespace diptych {
 namespace {
 
-/// Copies of triangles that there may be so that instances have vertices in the world; those beyond are thickened.
+/// Triangles and vertices that may be copied so that instances have vertices in the world; those beyond are thickened.
 constexpr std::size_t fewest_copied = std::size_t{1} << 20U;
 /// Triangles whose doubled area is no larger a share of their longest side's square are lines that rounding widened.
 constexpr double least_area = 1e-13;
+
+std::size_t vertex_count(const Mesh& mesh) {
+    std::size_t count = 0;
+    for (const Primitive& primitive : mesh.primitives) {
+        count += primitive.positions.size();
+    }
+    return count;
+}
 
 std::size_t triangle_count(const Mesh& mesh) {
     std::size_t count = 0;
@@ -73,15 +81,56 @@ Box world_box(const Mesh& mesh, const glm::dmat4& to_world) {
     return box;
 }
 
+/// Principal axes, and how far the mesh reaches along them.
+void find_spread(const Mesh& mesh, MeshFrame& frame) {
+    const auto packed = [&](const glm::vec3& p) { return (glm::dvec3(p) - frame.center) / frame.unit; };
+    glm::dmat3 covariance(0);
+    each_corner(mesh, [&](const glm::vec3& p) {
+        const glm::dvec3 from_middle = packed(p) - frame.middle;
+        covariance += glm::outerProduct(from_middle, from_middle);
+    });
+    glm::dmat3 axes = singular_values(covariance, false).right;
+    axes[2] = glm::cross(axes[0], axes[1]);
+    glm::dvec3 low(1e300);
+    glm::dvec3 high(-1e300);
+    each_corner(mesh, [&](const glm::vec3& p) {
+        const glm::dvec3 along = glm::transpose(axes) * packed(p);
+        low = glm::min(low, along);
+        high = glm::max(high, along);
+    });
+    frame.middle = axes * (0.5 * (low + high));
+    frame.spread = {axes, 0.5 * (high - low)};
+}
+
+/// Where the mesh's vertices are to lie: as the instance says, but for the two sides of a shape that it flattens.
+glm::dmat4 placement_of(const Mesh& mesh, const glm::dmat4& to_world) {
+    const Box box = world_box(mesh, glm::dmat4(1));
+    if (!(box.low.x <= box.high.x)) {
+        return to_world;
+    }
+    MeshFrame frame;
+    frame.middle = 0.5 * (box.low + box.high);
+    find_spread(mesh, frame);
+    const std::optional<glm::dmat3> apart =
+        MUTANT(SHEETS_COINCIDE, with_sheets_apart(glm::dmat3(to_world), frame.spread), std::optional<glm::dmat3>());
+    if (!apart) {
+        return to_world;
+    }
+    glm::dmat4 placed(*apart);
+    placed[3] = glm::dvec4(glm::dvec3(to_world * glm::dvec4(frame.middle, 1)) - *apart * frame.middle, 1);
+    return placed;
+}
+
 /// The mesh where it stands, about the middle of its box; its triangles without area are gone.
-PlannedMesh in_world(const Mesh& mesh, const glm::dmat4& to_world) {
+PlannedMesh in_world(const Mesh& mesh, const glm::dmat4& instance_to_world) {
+    const glm::dmat4 to_world = placement_of(mesh, instance_to_world);
     const Box box = world_box(mesh, to_world);
     PlannedMesh planned;
     planned.frame.in_world = true;
     planned.frame.center = box.low.x <= box.high.x ? 0.5 * (box.low + box.high) : glm::dvec3(0);
     glm::dmat4 moved = to_world;
     moved[3] -= glm::dvec4(planned.frame.center, 0);
-    const glm::dmat3 linear = glm::dmat3(to_world);
+    const glm::dmat3 linear = glm::dmat3(instance_to_world);
     const double scale = largest_column(linear);
     auto own = std::make_shared<Mesh>(mesh);
     for (Primitive& primitive : own->primitives) {
@@ -118,27 +167,6 @@ double unit_of(const Box& box, const glm::dvec3& center) {
                                                                              : 1.0;
 }
 
-/// Principal axes, and how far the mesh reaches along them.
-void find_spread(const Mesh& mesh, MeshFrame& frame) {
-    const auto packed = [&](const glm::vec3& p) { return (glm::dvec3(p) - frame.center) / frame.unit; };
-    glm::dmat3 covariance(0);
-    each_corner(mesh, [&](const glm::vec3& p) {
-        const glm::dvec3 from_middle = packed(p) - frame.middle;
-        covariance += glm::outerProduct(from_middle, from_middle);
-    });
-    glm::dmat3 axes = singular_values(covariance, false).right;
-    axes[2] = glm::cross(axes[0], axes[1]);
-    glm::dvec3 low(1e300);
-    glm::dvec3 high(-1e300);
-    each_corner(mesh, [&](const glm::vec3& p) {
-        const glm::dvec3 along = glm::transpose(axes) * packed(p);
-        low = glm::min(low, along);
-        high = glm::max(high, along);
-    });
-    frame.middle = axes * (0.5 * (low + high));
-    frame.spread = {axes, 0.5 * (high - low)};
-}
-
 /// Both lists of one mesh; either may be empty.
 std::vector<LeftOut> joined(std::vector<LeftOut> a, const std::vector<LeftOut>& b) {
     a.resize(std::max(a.size(), b.size()));
@@ -146,6 +174,14 @@ std::vector<LeftOut> joined(std::vector<LeftOut> a, const std::vector<LeftOut>& 
         a[p].insert(a[p].end(), b[p].begin(), b[p].end());
     }
     return a;
+}
+
+std::size_t count_of(const std::vector<LeftOut>& lists) {
+    std::size_t count = 0;
+    for (const LeftOut& list : lists) {
+        count += list.size();
+    }
+    return count;
 }
 
 PlannedMesh as_it_is(const Mesh& mesh, const std::vector<LeftOut>& left_out) {
@@ -193,13 +229,13 @@ private:
     }
 
     void add_meshes() {
-        std::size_t triangles = 0;
+        std::size_t size = 0;
         for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
             plan_.meshes.push_back(as_it_is(scene_.meshes[i], duplicates_.of_meshes[i]));
-            triangles += triangle_count(scene_.meshes[i]);
+            size += triangle_count(scene_.meshes[i]) + vertex_count(scene_.meshes[i]);
         }
         plan_.reach = scene_reach(scene_, plan_.meshes, origin_);
-        copies_left_ = std::max(fewest_copied, triangles);
+        copies_left_ = std::max(fewest_copied, size);
         uses_.resize(scene_.meshes.size(), 0);
         for (const Instance& instance : scene_.instances) {
             ++uses_[static_cast<std::size_t>(instance.mesh)];
@@ -209,7 +245,7 @@ private:
     /// Whether this instance may have a copy of its mesh.
     bool takes_copy(const Instance& instance, const Mesh& mesh) {
         const bool alone = uses_[static_cast<std::size_t>(instance.mesh)] == 1;
-        const std::size_t copied = alone ? 0 : triangle_count(mesh);
+        const std::size_t copied = alone ? 0 : triangle_count(mesh) + vertex_count(mesh);
         if (copied > copies_left_) {
             return false;
         }
@@ -228,8 +264,12 @@ private:
         const auto of_scene = static_cast<std::size_t>(instance.mesh);
         int mesh = instance.mesh;
         if (!duplicates_.of_instances.empty() && !duplicates_.of_instances[index].empty()) {
-            mesh = add(as_it_is(scene_.meshes[of_scene],
-                                joined(duplicates_.of_meshes[of_scene], duplicates_.of_instances[index])));
+            const std::vector<LeftOut> left_out =
+                joined(duplicates_.of_meshes[of_scene], duplicates_.of_instances[index]);
+            if (count_of(left_out) == triangle_count(scene_.meshes[of_scene])) {
+                return none;
+            }
+            mesh = add(as_it_is(scene_.meshes[of_scene], left_out));
         }
         const Mesh& whole = *plan_.meshes[static_cast<std::size_t>(mesh)].mesh;
         if (triangle_count(whole) == 0) {

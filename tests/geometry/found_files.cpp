@@ -109,6 +109,33 @@ TEST_CASE("A scale that passes through 0 is drawn at every moment") {
     }
 }
 
+TEST_CASE("A flattened lamp shows the side that faces the camera") {
+    NEED_VULKAN();
+    for (const double thickness : {0.0, 1e-9, 1e-7, 1e-5, -1e-9}) {
+        for (const bool moves : {false, true}) {
+            INFO("thickness " << thickness << (moves ? ", moving" : ""));
+            Scene scene;
+            scene.name = "flat lamp";
+            Primitive box;
+            box.material = add_material(scene, make_emitter("lamp", glm::vec3(1)));  // from its front alone
+            add_box(box, {-1, -1, -1}, {1, 1, 1});
+            glm::dmat4 flat(1);
+            flat[2][2] = thickness;
+            add_object(scene, "box", {box}, flat);
+            if (moves) {
+                scene.instances.back().node = 0;
+                scene.nodes.emplace_back();
+            }
+            scene.cameras.push_back(make_camera("camera", {1, 0.5, 5}, {0, 0, 0}, 40));
+            const Films films = render_everywhere(scene, geometry_settings(32, 32, 0), 16);
+            CHECK(mean_of(films.oracle).mean > 0.2);
+            for (const Film* panel : {&films.cpu, &films.vulkan}) {
+                CHECK(mean_of(*panel).mean == Approx(mean_of(films.oracle).mean).margin(5e-3));
+            }
+        }
+    }
+}
+
 TEST_CASE("Of two triangles in one place both panels meet the first") {
     NEED_VULKAN();
     std::mt19937_64 random(11);
