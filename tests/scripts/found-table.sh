@@ -55,8 +55,8 @@ as_sky() {  # IMAGE BACKEND REFERENCE: how a view of the sky differs from one of
     run compare "$work/$2.exr" "$work/reference.exr" --json
     python3 -c 'import json, sys
 found = json.load(open(sys.argv[1]))
-same = found["relmse"] < 1e-9
-print("the same" if same else "{:.2f} times as bright, relMSE {:.2g}".format(found["mean_ratio"][1], found["relmse"]))' "$work/out"
+differs = "{:.2f} times as bright, relMSE {:.2g}".format(found["mean_ratio"][1], found["relmse"])
+print("the same" if found["relmse"] < 1e-9 else differs)' "$work/out"
 }
 sky_colour() { sky "$1" "$2" && for c in R G B; do mean "$work/$2.exr" "$c"; done | paste -sd ' '; }
 answer() {  # FILE BACKEND OPTIONS...: refused, or rendered with these warnings
