@@ -214,7 +214,10 @@ TEST_CASE("pictures of 8 bits have the default tone map of the view", "[app]") {
     CHECK(picture({}) != picture({"--tonemap", "none"}));
     for (const char* command : {"render", "view", "compare"}) {
         const std::string help = run_diptych(folder, {command, "--help"}).out;
-        CHECK(help.find("--tonemap TEXT=pbr-neutral") != std::string::npos);
+        const std::size_t option = help.find("--tonemap TEXT");
+        REQUIRE(option != std::string::npos);
+        // CLI11 writes the default behind "=", or from 2.4 on in brackets.
+        CHECK(help.substr(option, 40).find("pbr-neutral") != std::string::npos);
     }
 }
 

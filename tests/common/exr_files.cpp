@@ -184,7 +184,9 @@ TEST_CASE("an EXR that is not a picture is refused by what it is", "[image]") {
     CHECK(contains(refusal({{"Z", 1.0f}}), "it holds Z, neither"));
     CHECK(contains(refusal({{"depth", 1.0f}, {"nx", 1.0f}, {"ny", 1.0f}}), "it holds depth, nx, ny, neither"));
     CHECK(contains(refusal({{"X", 1.0f}, {"Y", 1.0f}, {"Z", 1.0f}}), "no chromaticities say that they are CIE XYZ"));
-    CHECK(contains(refusal({{"Y", 1.0f}, {"RY", 1.0f}, {"BY", 1.0f}}), "luminance with chroma"));
+    // From 2.5 on OpenImageIO calls these channels R, G, B, converts what is subsampled and refuses the rest in its own words.
+    const std::string chroma = refusal({{"Y", 1.0f}, {"RY", 1.0f}, {"BY", 1.0f}});
+    CHECK((contains(chroma, "luminance with chroma") || contains(chroma, "subsampling")));
     CHECK(contains(refusal({{"Y", 1.0f}, {"X", 1.0f}}), "neither"));
     CHECK(contains(refusal({{"N.X", 1.0f}, {"N.Y", 1.0f}, {"N.Z", 1.0f}, {"A", 1.0f}}), "'N': channels X, Y, Z may be"));
     CHECK(read(folder, {constant_part(whole, {{"Y", 2.0f}})}).pixel == std::vector<float>{2, 2, 2});
