@@ -237,8 +237,8 @@ TEST_CASE("an EXR of other chromaticities becomes Rec.709", "[image]") {
     check({0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f}, rgb(0.1f, 1e-30f, 7), {0.1, 1e-30, 7});
     check(rec2020, {{"Y", 0.25f}}, {0.25, 0.25, 0.25});
 
-    const std::vector<float> none = {0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3f};
-    CHECK(contains(read(folder, {with_chromaticities(constant_part(whole, rgb(1, 1, 1)), none)}).refusal,
+    const std::vector<float> no_space = {0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3f};
+    CHECK(contains(read(folder, {with_chromaticities(constant_part(whole, rgb(1, 1, 1)), no_space)}).refusal,
                    "chromaticities span no colour space"));
 }
 
