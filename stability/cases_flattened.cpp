@@ -35,6 +35,32 @@ Measured measure_flattened_lamp(Backend& backend, double thickness, bool moves, 
     return judge_mean(film, 0.5 / pi * square_irradiance(0.5, 1));
 }
 
+/// A lamp's box, of half axes 1, 0.1 and `depth` times `size`, seen along the last by an orthographic camera `distance` sizes away.
+/// No axis of its matrix is one of the world or of its mesh.
+Measured measure_lamp_afar(Backend& backend, double size, double distance, double depth, Effort effort) {
+    const glm::dmat4 turned = glm::rotate(glm::rotate(glm::dmat4(1), 0.7, {0.0, 0.0, 1.0}), 0.4, {1.0, 0.0, 0.0});
+    const glm::dmat4 aslant = glm::rotate(glm::rotate(glm::dmat4(1), 0.9, {0.0, 1.0, 0.0}), 0.5, {0.0, 0.0, 1.0});
+    Scene scene;
+    scene.name = "lamp afar";
+    Primitive box;
+    box.material = add_material(scene, make_emitter("lamp", glm::vec3(1)));
+    add_box(box, {-1, -1, -1}, {1, 1, 1});
+    for (glm::vec3& p : box.positions) {
+        p = glm::vec3(glm::transpose(glm::dmat3(aslant)) * glm::dvec3(p));
+    }
+    box.normals.clear();
+    add_object(scene, "lamp", {box}, turned * glm::scale(glm::dmat4(1), size * dvec3(1, 0.1, depth)) * aslant);
+    scene.nodes.emplace_back();
+    scene.instances.back().node = 0;
+    add_camera(scene, {0, 0, distance * size}, dvec3(0), 1);
+    Camera& camera = scene.cameras.back();
+    camera.camera_to_world = turned * camera.camera_to_world;
+    camera.orthographic = true;
+    camera.orthographic_height = 0.24 * size;
+    const Film film = render(backend, scene, settings_of(80, 8, 1), effort == Effort::quick ? 256 : 4096);
+    return judge_mean(film, (2 * 0.2) / (2.4 * 0.24));
+}
+
 }  // namespace
 
 void add_flattened_cases(std::vector<Case>& cases) {
@@ -56,6 +82,18 @@ void add_flattened_cases(std::vector<Case>& cases) {
                      [](Backend& b, double thickness, Effort e) {
                          return measure_flattened_lamp(b, thickness, false, e);
                      }});
+    cases.push_back({"flattened transforms",
+                     "a long lamp that moves, of any size, 1000 of its sizes away",
+                     {"size", 1e-6, 1e8, true, 8, 15},
+                     0.005,
+                     "relative",
+                     [](Backend& b, double size, Effort e) { return measure_lamp_afar(b, size, 1000, 0.1, e); }});
+    cases.push_back({"flattened transforms",
+                     "a long lamp that moves, flattened to nothing, seen from afar",
+                     {"sizes away", 1, 1e4, true, 5, 13},
+                     0.01,
+                     "relative",
+                     [](Backend& b, double distance, Effort e) { return measure_lamp_afar(b, 1, distance, 0, e); }});
 }
 
 }  // namespace diptych::stability

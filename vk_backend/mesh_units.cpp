@@ -15,6 +15,10 @@ constexpr double room = 0x1p12;
 // them the triangle.
 constexpr double least_width = 0x1p-40;
 
+// No longer is a matrix's part A in the unit chosen: a ray's direction gets as short in the mesh's space as A is long.
+// Below 2^-40 an H200's driver meets nothing, and further down all of the mesh's box.
+constexpr double longest = 0x1p34;
+
 double norm(const glm::dmat3& m) {
     return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
 }
@@ -54,8 +58,11 @@ std::vector<double> mesh_widths(const PackedScene& packed) {
 }  // namespace
 
 std::vector<float> mesh_units(const PackedScene& packed, const InstanceGroups& groups) {
-    std::vector<float> units(packed.meshes.size(), 1.0F);
-    const std::vector<double> widths = mesh_widths(packed);
+    std::vector<double> wanted(packed.meshes.size(), 0);  // doublings
+    std::vector<double> most;
+    for (const double width : mesh_widths(packed)) {
+        most.push_back(std::floor(std::log2(width / least_width)));
+    }
     double reach = 0;
     for (const shared::Instance& instance : packed.instances) {
         reach = std::max(reach, distance(instance));
@@ -65,14 +72,21 @@ std::vector<float> mesh_units(const PackedScene& packed, const InstanceGroups& g
             continue;
         }
         const std::uint32_t mesh = packed.instance_meshes[i];
-        const double wanted = std::ceil(std::log2(room * needed_factor(linear_part(packed.instances[i]), reach)));
-        const double most = std::floor(std::log2(widths[mesh] / least_width));
-        const double doublings = std::min(wanted, most);
-        if (doublings > 0 && std::isfinite(doublings)) {  // a singular matrix has no inverse to be rounded
-            units[mesh] = std::max(units[mesh], std::ldexp(1.0F, static_cast<int>(doublings)));
+        const glm::dmat3 a = linear_part(packed.instances[i]);
+        const double needed = std::ceil(std::log2(room * needed_factor(a, reach)));
+        if (std::isfinite(needed)) {  // a singular matrix has no inverse to be rounded
+            wanted[mesh] = std::max(wanted[mesh], needed);
+            most[mesh] = std::min(most[mesh], MUTANT(DIRECTIONS_VANISH, std::floor(std::log2(longest / norm(a))), 1000.0));
         }
     }
-    return MUTANT(MESHES_IN_OWN_UNITS, units, std::vector<float>(packed.meshes.size(), 1.0F));
+    std::vector<float> units(packed.meshes.size(), 1.0F);
+    for (std::size_t mesh = 0; mesh < units.size(); ++mesh) {
+        const double doublings = std::min(wanted[mesh], most[mesh]);
+        if (std::isfinite(doublings)) {  // of an empty mesh it is not
+            units[mesh] = MUTANT(MESHES_IN_OWN_UNITS, std::ldexp(1.0F, static_cast<int>(doublings)), 1.0F);
+        }
+    }
+    return units;
 }
 
 }  // namespace diptych

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "compat.h"
+
 namespace diptych {
 namespace {
 
@@ -99,12 +101,20 @@ double largest_column(const glm::dmat3& m) {
     return std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
 }
 
-bool is_well_conditioned(const glm::dmat3& m) {
+double least_thickness(double distance) {
+    return std::clamp(std::sqrt(6e-8 * MUTANT(THICK_AS_IF_NEAR, distance, 1.0)), 2.5e-4, 2.5e-2);
+}
+
+double largest_condition(double distance) {
+    return std::max(0.25 / least_thickness(distance), 25.0);
+}
+
+bool is_well_conditioned(const glm::dmat3& m, double limit) {
     const glm::dmat3 unit = m / largest_entry(m);
     const double size = frobenius(unit);
     const double volume = std::abs(glm::determinant(unit));
-    // Under the largest condition a volume is 2e-7 of the size cubed. Far below, cofactors and determinant are rounding.
-    return volume > 1e-7 * size * size * size && size * frobenius(cofactor(unit)) < largest_condition * volume;
+    // Under a condition of 1000 a volume is 2e-7 of the size cubed. Far below, cofactors and determinant are rounding.
+    return volume > 1e-7 * size * size * size && size * frobenius(cofactor(unit)) < limit * volume;
 }
 
 namespace {
@@ -142,9 +152,9 @@ std::optional<glm::dmat3> with_values(const glm::dmat3& m, const Spread& spread,
 
 }  // namespace
 
-std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread) {
-    return with_values(m, spread, least_thickness,
-                       [](const glm::dvec3& v) { return glm::max(v, glm::dvec3(least_thickness * v.x)); });
+std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread, double thickness) {
+    return with_values(m, spread, thickness,
+                       [&](const glm::dvec3& v) { return glm::max(v, glm::dvec3(thickness * v.x)); });
 }
 
 std::optional<glm::dmat3> with_sheets_apart(const glm::dmat3& m, const Spread& spread) {

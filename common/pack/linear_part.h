@@ -27,16 +27,17 @@ glm::dmat3 cofactor(const glm::dmat3& m);
 /// The length of the longest column: at most the largest singular value, and at least 0.57 of it.
 double largest_column(const glm::dmat3& m);
 
-/// Largest ratio of singular values under which fp32 carries rays into a mesh's space and back: silhouettes are within
-/// 6e-5 of the mesh's size.
-inline constexpr double largest_condition = 1e3;
+/// What the thickness of a shape becomes under a matrix without a good inverse, as a share of its size, where it is `distance`
+/// of its sizes away from the eye. Rays in fp32 that start there miss its silhouette by 6e-8 k distance of its size, where k is
+/// the matrix's condition. A flattened shape's k is 1 / thickness: here both errors are as large. Within 2.5e-4 and 2.5e-2,
+/// which is balanced up to 10^4 sizes away.
+double least_thickness(double distance);
 
-/// Whether that ratio is no larger. Bounds it by norms, so that matrices beyond a third of it may be turned down.
-bool is_well_conditioned(const glm::dmat3& m);
+/// Largest ratio of singular values that is left to fp32 at that distance: 1000 near the eye, 25 from 1700 sizes on.
+double largest_condition(double distance);
 
-/// Where the ratio is larger, what a moving instance's thickness becomes, as a share of its largest singular value:
-/// as much as fp32 then errs in the silhouette.
-inline constexpr double least_thickness = 2.5e-4;
+/// Whether that ratio is at most `limit`. Bounds it by norms, so that matrices beyond a third of it may be turned down.
+bool is_well_conditioned(const glm::dmat3& m, double limit);
 
 /// How far a shape reaches along axes of its own, about its middle.
 struct Spread {
@@ -44,10 +45,10 @@ struct Spread {
     glm::dvec3 half{0};
 };
 
-/// `m`, changed where it makes the shape thinner than `least_thickness` of its length: the shape is that thin then, and
+/// `m`, changed where it makes the shape thinner than `thickness` of its length: the shape is that thin then, and
 /// the matrix has an inverse in fp32. What `m` does along an axis in which the shape is flat already does not matter. Nothing where
 /// no area is left.
-std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread);
+std::optional<glm::dmat3> thickened(const glm::dmat3& m, const Spread& spread, double thickness);
 
 /// Between the two sides of a flattened shape that stands still, as a share of its largest singular value: what rays in
 /// fp32 tell apart, so that they meet the side that faces them.

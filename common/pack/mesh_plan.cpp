@@ -276,7 +276,8 @@ private:
             return none;
         }
         const glm::dmat4& to_world = instance.object_to_world;
-        const bool good = has_good_inverse(glm::dmat3(to_world), plan_.reach);
+        const double distance = sizes_away(plan_.meshes[static_cast<std::size_t>(mesh)].frame, to_world, origin_);
+        const bool good = has_good_inverse(glm::dmat3(to_world), distance, plan_.reach);
         if (instance.node != none || MUTANT(SINGULAR_NOT_IN_WORLD, good, true) || !takes_copy(instance, whole)) {
             return mesh;
         }
@@ -300,7 +301,9 @@ private:
             const bool flattened =
                 std::any_of(planned.users.begin(), planned.users.end(), [&](std::size_t user) {
                     const Instance& instance = scene_.instances[user];
-                    return instance.node != none || !is_well_conditioned(glm::dmat3(instance.object_to_world));
+                    const double distance = sizes_away(planned.frame, instance.object_to_world, origin_);
+                    return instance.node != none || !is_well_conditioned(glm::dmat3(instance.object_to_world),
+                                                                         largest_condition(distance));
                 });
             if (flattened && !planned.frame.in_world) {
                 find_spread(*planned.mesh, planned.frame);
@@ -335,8 +338,8 @@ Box box_of(const Mesh& mesh) {
     return world_box(mesh, glm::dmat4(1));
 }
 
-bool has_good_inverse(const glm::dmat3& linear, double reach) {
-    return is_well_conditioned(linear) && largest_column(linear) > std::max(1e-6, 1e-10 * reach);
+bool has_good_inverse(const glm::dmat3& linear, double distance, double reach) {
+    return is_well_conditioned(linear, largest_condition(distance)) && largest_column(linear) > std::max(1e-6, 1e-10 * reach);
 }
 
 MeshPlan plan_meshes(const Scene& scene, const glm::dvec3& origin, const Camera* camera) {

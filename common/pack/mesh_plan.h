@@ -35,8 +35,8 @@ struct MeshPlan {
     std::vector<std::string> warnings;
 };
 
-/// Whether fp32 carries rays into the space of an instance's mesh and back.
-bool has_good_inverse(const glm::dmat3& linear, double reach);
+/// Whether fp32 carries rays from `distance` of the mesh's sizes away into its space and back.
+bool has_good_inverse(const glm::dmat3& linear, double distance, double reach);
 
 /// Duplicate triangles are left out. An instance that stands still under a matrix without a good inverse gets a mesh of
 /// its own, transformed in double. `camera` may be null. Throws Error where the scene is out of range.

@@ -6,6 +6,7 @@
 #include "pack/cut_triangles.h"
 #include "pack/linear_part.h"
 #include "pack/pack_parts.h"
+#include "pack/range.h"
 
 namespace diptych {
 namespace {
@@ -36,7 +37,8 @@ void cut_near_eye(const Scene& scene, const PackedScene& packed, std::size_t& bu
     }
     const glm::dmat4 placed = placement(scene, planned);
     const glm::dmat3 linear(placed);
-    if (!has_good_inverse(linear, packed.reach)) {
+    const double distance = sizes_away(planned.frame, placed, packed.origin);
+    if (!planned.frame.in_world && !has_good_inverse(linear, distance, packed.reach)) {
         return;
     }
     const glm::dvec3 eye = glm::inverse(linear) * (packed.origin - glm::dvec3(placed[3]));
@@ -107,8 +109,9 @@ std::optional<double> place_instance(const Instance& instance, const glm::dvec3&
     glm::dmat3 packed_linear = frame.in_world ? glm::dmat3(1) : linear * frame.unit;
     glm::dvec3 moved = frame.in_world ? frame.center - origin : glm::dvec3(m[3]) - origin + linear * frame.center;
     bool shown = true;
-    if (!frame.in_world && !is_well_conditioned(packed_linear)) {
-        const std::optional<glm::dmat3> thick = thickened(packed_linear, frame.spread);
+    const double distance = sizes_away(frame, m, origin);
+    if (!frame.in_world && !is_well_conditioned(packed_linear, largest_condition(distance))) {
+        const std::optional<glm::dmat3> thick = thickened(packed_linear, frame.spread, least_thickness(distance));
         shown = MUTANT(THICKENED_HIDDEN, thick.has_value(), false);
         moved += (packed_linear - thick.value_or(packed_linear)) * frame.middle;
         packed_linear = thick.value_or(packed_linear);
@@ -121,7 +124,7 @@ std::optional<double> place_instance(const Instance& instance, const glm::dvec3&
     out.row_2 = row(2);
     const double size = largest_column(packed_linear);
     shown = shown && size > 1e-13 * std::max(reach, 1.0);
-    return shown ? std::optional<double>(0.5 * least_thickness * size) : std::nullopt;
+    return shown ? std::optional<double>(0.5 * least_thickness(distance) * size) : std::nullopt;
 }
 
 void pack_instances(const Scene& scene, const MeshPlan& plan, PackedScene& packed) {

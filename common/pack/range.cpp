@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "error.h"
+#include "pack/linear_part.h"
 
 namespace diptych {
 namespace {
@@ -28,6 +29,13 @@ double reach_of(const MeshFrame& frame, const glm::dmat4& to_world, const glm::d
         reach = distance <= reach ? reach : distance;  // NaN stays
     }
     return reach;
+}
+
+double sizes_away(const MeshFrame& frame, const glm::dmat4& to_world, const glm::dvec3& origin) {
+    const glm::dvec3& half = frame.spread.half;
+    const double size = largest_column(glm::dmat3(to_world)) * frame.unit * std::max({half.x, half.y, half.z});
+    const glm::dvec3 middle = frame.center + frame.unit * frame.middle;
+    return glm::length(glm::dvec3(to_world * glm::dvec4(middle, 1)) - origin) / size;
 }
 
 double scene_reach(const Scene& scene, const std::vector<PlannedMesh>& meshes, const glm::dvec3& origin) {

@@ -16,6 +16,10 @@ inline constexpr double smallest = 1e-14;
 /// where it does.
 double reach_of(const MeshFrame& frame, const glm::dmat4& to_world, const glm::dvec3& origin);
 
+/// How many of its own sizes a mesh of this frame is away from `origin` under this transform; the size is at least that
+/// of its longest half axis.
+double sizes_away(const MeshFrame& frame, const glm::dmat4& to_world, const glm::dvec3& origin);
+
 /// The largest distance of any instance; at least 1. Throws Error naming the instance beyond `farthest`.
 double scene_reach(const Scene& scene, const std::vector<PlannedMesh>& meshes, const glm::dvec3& origin);
 

@@ -6,6 +6,7 @@
 
 #include "error.h"
 #include "geometry_fixture.h"
+#include "pack/linear_part.h"
 #include "scene/default_camera.h"
 
 using namespace diptych;
@@ -27,7 +28,7 @@ Camera near_or_far(const Scene& scene, std::mt19937_64& random) {
     const double distance = size * std::pow(10, std::uniform_real_distribution<double>(0.3, 4)(random));
     const glm::dvec3 middle = is_empty(bounds) ? glm::dvec3(0) : 0.5 * bounds.lo + 0.5 * bounds.hi;
     std::normal_distribution<double> normal;
-    const glm::dvec3 away = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+    const glm::dvec3 away = glm::normalize(glm::dvec3{normal(random), normal(random), normal(random)});
     Camera camera = make_camera("camera", middle + distance * away, middle, 45);
     camera.orthographic = random() % 2 == 0;
     camera.orthographic_height = size;
@@ -46,7 +47,7 @@ Scene extreme_scene(std::uint64_t seed) {
         glm::dmat4 to_world(1);
         for (int node = 0; node < 2; ++node) {
             glm::dmat4 local(random_chain(random));
-            local[3] = glm::dvec4(normal(random), normal(random), normal(random), 1);
+            local[3] = glm::dvec4{normal(random), normal(random), normal(random), 1};
             to_world = to_world * local;
         }
         add_object(scene, "shape " + std::to_string(i), {random_shape(random, 0)}, to_world);
@@ -57,6 +58,19 @@ Scene extreme_scene(std::uint64_t seed) {
     }
     scene.cameras.push_back(near_or_far(scene, random));
     return scene;
+}
+
+/// By how much of the view the panels may differ: where a shape moves, its outline may err by its thickness
+/// (docs/decisions/0015).
+double allowance(const Scene& scene) {
+    const auto moves = [](const Instance& instance) { return instance.node != none; };
+    if (std::none_of(scene.instances.begin(), scene.instances.end(), moves)) {
+        return 2e-3;
+    }
+    const Camera& camera = scene.cameras.front();
+    const Bounds bounds = scene_bounds(scene);
+    const glm::dvec3 middle = is_empty(bounds) ? glm::dvec3(0) : 0.5 * bounds.lo + 0.5 * bounds.hi;
+    return 2e-3 + least_thickness(glm::length(glm::dvec3(camera.camera_to_world[3]) - middle) / camera.orthographic_height);
 }
 
 enum class Outcome { alike, refused };
@@ -84,7 +98,7 @@ Outcome judge(std::uint64_t seed, bool on_device) {
     INFO("cpu " << cpu.mean << " ± " << cpu.error << " vulkan " << vulkan.mean << " oracle " << oracle.mean << " ± "
                 << oracle.error);
     CHECK(std::abs(cpu.mean - oracle.mean) < 5 * std::hypot(cpu.error, oracle.error) + 2e-3);
-    CHECK(std::abs(vulkan.mean - cpu.mean) < 2e-3);
+    CHECK(std::abs(vulkan.mean - cpu.mean) < allowance(scene));
     return Outcome::alike;
 }
 

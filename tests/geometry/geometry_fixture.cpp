@@ -20,7 +20,7 @@ double uniform(std::mt19937_64& random, double low, double high) {
 
 glm::dmat3 random_rotation(std::mt19937_64& random) {
     std::normal_distribution<double> normal;
-    const auto vector = [&] { return glm::dvec3(normal(random), normal(random), normal(random)); };
+    const auto vector = [&] { return glm::dvec3{normal(random), normal(random), normal(random)}; };
     const glm::dvec3 x = glm::normalize(vector());
     const glm::dvec3 y = glm::normalize(glm::cross(vector(), x));
     return {x, y, glm::cross(x, y)};
@@ -103,7 +103,7 @@ glm::dmat3 random_chain(std::mt19937_64& random) {
     const int nodes = 1 + static_cast<int>(random() % 4);
     glm::dmat3 chain(1);
     for (int i = 0; i < nodes; ++i) {
-        const glm::dvec3 scale(random_factor(random), random_factor(random), random_factor(random));
+        const glm::dvec3 scale{random_factor(random), random_factor(random), random_factor(random)};
         const glm::dmat3 turn = random() % 4 == 0 ? glm::dmat3(1) : random_rotation(random);
         chain = chain * turn * glm::dmat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z);
     }

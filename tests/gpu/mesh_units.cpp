@@ -121,6 +121,9 @@ TEST_CASE("A mesh's unit is a power of two for which its matrix outweighs its tr
     CHECK(units[0] == 1);  // placed by nothing
     CHECK(units[1] > 1023);
     CHECK(units[2] * 0.001F > 1023);  // may move to where the other stands
+    packed.instances[1].row_0 = {0.001F, 0, 0, 0};
+    packed.instances[1].row_1 = {0, 1e11F, 0, 0};
+    CHECK(mesh_units(packed, {})[2] <= 0x1p34 / 1e11);  // rays keep a length in its space
     for (const float unit : units) {
         int exponent = 0;
         CHECK(std::frexp(unit, &exponent) == 0.5F);
