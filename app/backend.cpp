@@ -13,11 +13,27 @@
 
 namespace diptych::app {
 
+namespace {
+
+RendererMaker& replacement() {
+    static RendererMaker maker;
+    return maker;
+}
+
+}  // namespace
+
+void replace_renderers(RendererMaker maker) {
+    replacement() = std::move(maker);
+}
+
 std::vector<std::string> backend_names() {
     return {"cpu", "vulkan", "oracle"};
 }
 
 std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request) {
+    if (replacement()) {
+        return replacement()(scene, packed, request);
+    }
     if (request.backend == "oracle") {
         return make_oracle_renderer(scene, request.settings, oracle_mode_from_name(request.oracle_mode),
                                     request.threads);

@@ -142,7 +142,7 @@ private:
         }
         line_.begin(fmt::format("{}, run {} of {}", name, run + 1, options_.runs));
         note_setup(runner);
-        const std::uint32_t seed = methods_[index].request.settings.seed + run;
+        const std::uint32_t seed = methods_[index].seed_of(run);
         std::vector<ErrorRow> rows;
         std::map<std::uint32_t, std::vector<float>> deviations;
         const bool whole =
@@ -342,7 +342,8 @@ void add_converge(CLI::App& app, Run& run) {
                      "The page's pictures are thinned to at most so many pixels a side")
         ->check(CLI::Range(16, 32768))
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "First of the seeds, which go on from there")->capture_default_str();
+    command->add_option("--seed", options->seed, "Of all renders, whose own seeds derive from it")
+        ->capture_default_str();
     add_scene_options(*command, options->arguments);
     command->add_option("--device", request.device, "Vulkan device by index or name; the best by default");
     command->add_option("--threads", request.threads, "Threads of cpu or oracle; one a core by default")

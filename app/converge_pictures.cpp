@@ -80,13 +80,14 @@ bool make_picture(MethodRunner& runner, double seconds, const Reference& referen
     const auto spp =
         static_cast<std::uint32_t>(std::clamp(std::round(seconds / std::max(sample_seconds, 1e-12)), 1.0, 1e9));
     std::filesystem::create_directories(state.path("pictures"));
-    return runner.run(method.request.settings.seed, {spp}, cancel,
+    return runner.run(method.picture_seed, {spp}, cancel,
                       [&](std::uint32_t, const Film& film, double device_seconds, double) {
                           LayeredImage image = develop(film);
                           const Difference difference = compare_images(image, reference.image);
                           RenderRequest request = method.request;
                           request.output = stem + ".exr";
                           request.settings.sample_count = spp;
+                          request.settings.seed = method.picture_seed;
                           RenderOutcome outcome;
                           outcome.program = program_version();
                           outcome.device = runner.device();

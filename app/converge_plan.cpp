@@ -21,9 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t seeds_a_method = 4096;
-constexpr std::uint32_t reference_seeds = 0x40000000U;
-
 std::vector<std::string> parts_of(const std::string& text) {
     std::vector<std::string> parts(1);
     for (const char c : text) {
@@ -40,7 +37,8 @@ bool is_backend(const std::string& name) {
     return name == "cpu" || name == "vulkan" || name == "oracle";
 }
 
-Method parse_method(const char* option, const std::string& text, const RenderRequest& base) {
+Method parse_method(const char* option, const std::string& text, const RenderRequest& base, const SeedPlan& seeds,
+                    std::uint32_t place) {
     const std::vector<std::string> parts = parts_of(text);
     const std::string& backend = parts.front();
     if (!is_backend(backend)) {
@@ -52,9 +50,8 @@ Method parse_method(const char* option, const std::string& text, const RenderReq
         throw Error(fmt::format("{} {}: wants cpu:INTEGRATOR[:SAMPLER], vulkan:INTEGRATOR[:SAMPLER] or oracle[:MODE]",
                                 option, text));
     }
-    Method method;
-    method.name = text;
-    method.request = base;
+    Method method{.name = text, .request = base, .seeds = seeds, .place = place};
+    method.request.settings.seed = method.seed_of(0);
     method.request.backend = backend;
     if (backend == "vulkan") {
         method.request.threads = 0;
@@ -130,7 +127,8 @@ void check_converge_options(ConvergeOptions& options) {
         throw Error("--threads: goes with a method on cpu or oracle");
     }
     const bool resampled = any([&](const std::string& name) {
-        const Method method = parse_method("--methods", name, request);
+        const SeedPlan any_seeds(options.seed, SeedPurpose::converge, 1, 1);
+        const Method method = parse_method("--methods", name, request, any_seeds, 0);
         return method.request.backend != "oracle" && resamples(method.request.settings.integrator);
     });
     refuse_idle_resampling_options(names, resampled);
@@ -140,14 +138,18 @@ void check_converge_options(ConvergeOptions& options) {
 }
 
 std::vector<Method> plan_methods(const ConvergeOptions& options) {
+    const auto count = static_cast<std::uint32_t>(options.methods.size());
+    const SeedPlan runs(options.seed, SeedPurpose::converge, count, options.runs);
+    const SeedPlan pictures(options.seed, SeedPurpose::converge_picture, count, 1);
     std::vector<Method> methods;
     for (const std::string& name : options.methods) {
         const auto same = [&](const Method& method) { return method.name == name; };
         if (std::any_of(methods.begin(), methods.end(), same)) {
             throw Error(fmt::format("--methods: {} is named twice", name));
         }
-        Method method = parse_method("--methods", name, options.arguments.request);
-        method.request.settings.seed = options.seed + static_cast<std::uint32_t>(methods.size()) * seeds_a_method;
+        const auto place = static_cast<std::uint32_t>(methods.size());
+        Method method = parse_method("--methods", name, options.arguments.request, runs, place);
+        method.picture_seed = pictures.seed(place, 0);
         methods.push_back(method);
     }
     return methods;
@@ -160,9 +162,10 @@ bool reference_is_file(const ConvergeOptions& options) {
 Method plan_reference(const ConvergeOptions& options, const std::vector<Method>& methods) {
     RenderRequest base = options.arguments.request;
     base.settings.sampler = SamplerKind::sobol;
-    base.settings.seed = reference_seeds + options.seed;
+    const SeedPlan blocks(options.seed, SeedPurpose::converge_reference, 1, reference_blocks);
+    const auto parse = [&](const std::string& text) { return parse_method("--reference", text, base, blocks, 0); };
     if (options.reference != "auto") {
-        return parse_method("--reference", options.reference, base);
+        return parse(options.reference);
     }
     std::string first;
     for (const char* backend : {"vulkan", "cpu", "oracle"}) {
@@ -178,13 +181,13 @@ Method plan_reference(const ConvergeOptions& options, const std::vector<Method>&
                                                        : method.request.settings.integrator == Integrator::path);
         });
         if (!taken) {
-            return parse_method("--reference", name, base);
+            return parse(name);
         }
     }
     if (first == "oracle") {
-        return parse_method("--reference", "cpu:path", base);
+        return parse("cpu:path");
     }
-    Method method = parse_method("--reference", first, base);
+    Method method = parse(first);
     method.request.settings.mis =
         base.settings.mis == MisHeuristic::power ? MisHeuristic::balance : MisHeuristic::power;
     method.name += fmt::format(" with --mis {}", name_of(method.request.settings.mis));

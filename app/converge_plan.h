@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "arguments.h"
+#include "render/seeds.h"
 
 namespace diptych::app {
 
@@ -27,10 +28,22 @@ struct ConvergeOptions {
     std::string command;  // as typed
 };
 
-/// One way of rendering the scene. Run k has the seed request.settings.seed + k.
+/// Blocks of a reference that `converge` renders itself: each has a seed of its own and as many samples as the longest
+/// run of any method, so their mean has 16 times as many, and their spread says how far it is off, whatever the
+/// sampler.
+inline constexpr std::uint32_t reference_blocks = 16;
+
+/// One way of rendering the scene.
 struct Method {
-    std::string name;  // BACKEND:INTEGRATOR or BACKEND:INTEGRATOR:SAMPLER, as asked for
-    RenderRequest request;
+    std::string name;       // BACKEND:INTEGRATOR or BACKEND:INTEGRATOR:SAMPLER, as asked for
+    RenderRequest request;  // with the seed of run 0
+    SeedPlan seeds;
+    std::uint32_t place = 0;         // among the sides of `seeds`
+    std::uint32_t picture_seed = 0;  // of its picture, which is no run
+
+    /// Of a run, or of a block of a reference. All counts of samples of a run share it: they are one unit of the
+    /// statistics.
+    std::uint32_t seed_of(std::uint32_t run) const { return seeds.seed(place, run); }
 
     bool chained() const { return request.backend != "oracle" && request.settings.integrator == Integrator::restir; }
     bool laid_out() const { return request.backend != "oracle" && request.settings.sampler == SamplerKind::hammersley; }

@@ -159,7 +159,7 @@ std::optional<Reference> make_reference(const Scene& scene, const Method& method
     double seconds = 0;
     while (blocks.count < reference_blocks) {
         begin_block(blocks.count);
-        const bool whole = runner.run(settings.seed + blocks.count, {spp}, cancel,
+        const bool whole = runner.run(method.seed_of(blocks.count), {spp}, cancel,
                                       [&](std::uint32_t, const Film& film, double device_seconds, double) {
                                           blocks.add(film);
                                           seconds += device_seconds;

@@ -14,11 +14,6 @@
 
 namespace diptych::app {
 
-/// Blocks of a reference that `converge` renders itself: each has a seed of its own and as many samples as the longest
-/// run of any method, so their mean has 16 times as many, and their spread says how far it is off, whatever the
-/// sampler.
-inline constexpr std::uint32_t reference_blocks = 16;
-
 struct Reference {
     LayeredImage image;           // with standard errors, where they are known
     std::vector<float> variance;  // of every value: standard error squared; zeros where unknown

@@ -5,6 +5,7 @@
 #include "command.h"
 #include "interrupt.h"
 #include "played_scene.h"
+#include "render/seeds.h"
 #include "report.h"
 
 namespace diptych::app {
@@ -38,7 +39,7 @@ int render_sequence(const Scene& scene, const RenderRequest& request, bool json,
             frame.warm_up = i;
         } else {
             frame.start = request.start + i / request.fps;
-            frame.settings.seed = request.settings.seed + i;
+            frame.settings.seed = neighbor_seed(request.settings.seed, i);
         }
         const BegunFrame begun = played.begin_frame(i, frame.settings.seed);
         if (i < request.warm_up) {

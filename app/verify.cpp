@@ -222,7 +222,7 @@ void add_verify(CLI::App& app, Run& run) {
         ->add_option("--max-tile-half-width", options->max_tile_half_width, "And half of the tiles to so many percent")
         ->check(positive_number())
         ->capture_default_str();
-    CLI::Option* seed = command->add_option("--seed", options->seed, "First of the seeds, which go on from there")
+    CLI::Option* seed = command->add_option("--seed", options->seed, "Of all runs, whose own seeds derive from it")
                             ->capture_default_str();
     CLI::Option* fresh = command->add_flag(
         "--fresh-seeds", options->fresh_seeds,

@@ -88,22 +88,17 @@ std::string next_command(const VerifyOptions& options, const SuiteResult& suite)
     std::vector<std::string> replaced = {"--spp", "--against-spp", "--time"};
     std::string instead = samples_text(spp, spp_b, spread);
     if (seen) {  // the same runs again would find the same difference again
-        std::uint32_t last = suite.seed;
-        for (const PairResult& pair : suite.pairs) {
-            last = std::max({last, pair.seed_a, pair.seed_b});
-        }
         replaced.emplace_back("--seed");
-        instead += fmt::format(" --seed {}", last + options.runs);
+        instead += fmt::format(" --seed {}", suite.seed + 1);
     }
     return typed_command(*options.command, replaced, instead);
 }
 
 void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
     const RenderSettings& settings = options.arguments.request.settings;
-    fmt::print("{} at {}x{}: {} runs a side{}, {} tiles of {}x{}, seeds from {}, {:.1f} s\n",
-               options.arguments.request.scene, settings.width, settings.height, options.runs,
-               options.common_seeds ? " of common seeds" : "", suite.grid.columns * suite.grid.rows, options.tile,
-               options.tile, suite.seed, suite.seconds);
+    fmt::print("{} at {}x{}: {} runs a side{}, {} tiles of {}x{}, seed {}, {:.1f} s\n", options.arguments.request.scene,
+               settings.width, settings.height, options.runs, options.common_seeds ? " of common seeds" : "",
+               suite.grid.columns * suite.grid.rows, options.tile, options.tile, suite.seed, suite.seconds);
     if (!options.frames.empty()) {
         const RenderRequest& request = options.arguments.request;
         fmt::print("A sequence from {:g} s on, {:g} frames a second{}; chains of restir have {} sample{} a frame\n",
@@ -199,6 +194,7 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
         entry["stage_alpha"] = pair.alpha;
         entry["seed_a"] = pair.seed_a;
         entry["seed_b"] = pair.seed_b;
+        entry["chain_seed_step"] = pair.chain_step;
         entry["device_a"] = pair.device_a;
         entry["device_b"] = pair.device_b;
         entry["verdict"] = name_of(pair.verdict.verdict);

@@ -16,7 +16,6 @@ constexpr double least_extension = 0.2;        // of the samples so far: less is
 constexpr std::uint32_t second_stage_spp = 4;  // times the first's
 constexpr double second_stage_alpha = 0.1;     // likewise
 constexpr double first_stage_time = 0.2;       // leaves the second stage its four times as many samples
-constexpr std::uint32_t second_stage_seeds = 0x80000000U;
 constexpr std::uint32_t most_spp = 1U << 30U;
 
 double now() {
@@ -25,7 +24,8 @@ double now() {
 
 struct Stage {
     std::vector<PairName> pairs;
-    std::uint32_t seed = 0;
+    std::uint32_t seed = 0;  // the user's
+    SeedPurpose purpose = SeedPurpose::verify;
     std::uint32_t spp = 0;
     std::uint32_t reference_spp = 0;
     double seconds = 0;  // 0: spp is what counts
@@ -41,21 +41,23 @@ struct Sides {
         std::vector<std::uint32_t> frames;
     };
     std::vector<Wanted> wanted;
-    std::vector<VerifySide> all;  // parallel to wanted
-    std::vector<std::uint32_t> seeds;
+    std::vector<VerifySide> all;                               // parallel to wanted
     std::vector<std::pair<std::size_t, std::size_t>> of_pair;  // indices
+    std::uint64_t chain_step = 0;
 
     Sides(const Stage& stage, const Scene& scene, const VerifyOptions& options) {
         for (const PairName& pair : stage.pairs) {
             const std::size_t a = want(pair.a, false, pair.frame);
             of_pair.emplace_back(a, want(pair.b, true, pair.frame));
         }
+        const auto count = static_cast<std::uint32_t>(options.common_seeds ? 1 : wanted.size());
+        const SeedPlan seeds(stage.seed, stage.purpose, count, options.runs);
+        chain_step = seeds.part_step();
         for (Wanted& side : wanted) {
             std::sort(side.frames.begin(), side.frames.end());
             side.frames.erase(std::unique(side.frames.begin(), side.frames.end()), side.frames.end());
-            seeds.push_back(stage.seed +
-                            (options.common_seeds ? 0 : static_cast<std::uint32_t>(all.size()) * options.runs));
-            all.emplace_back(side.name, scene, options, side.frames, seeds.back(),
+            const auto place = static_cast<std::uint32_t>(options.common_seeds ? 0 : all.size());
+            all.emplace_back(side.name, scene, options, side.frames, seeds, place,
                              side.is_reference ? stage.reference_spp : stage.spp);
         }
     }
@@ -134,6 +136,9 @@ bool render_stage(const Stage& stage, Sides& sides, const VerifyOptions& options
         }
         samples =
             whole_chains(next_extension(sides.all.front().spp(), rendering, start + stage.seconds - now()), options);
+        for (const VerifySide& side : sides.all) {  // as many as there are seeds for
+            samples = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples, side.most_spp() - side.spp()));
+        }
     }
     return true;
 }
@@ -156,8 +161,9 @@ std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Scene
         result.alpha = stage.limits.alpha;
         result.spp = sides.all[a].spp();
         result.spp_b = sides.all[b].spp();
-        result.seed_a = sides.seeds[a];
-        result.seed_b = sides.seeds[b];
+        result.seed_a = sides.all[a].first_seed(result.names.frame);
+        result.seed_b = sides.all[b].first_seed(result.names.frame);
+        result.chain_step = sides.chain_step;
         result.stage = stage.number;
         result.device_a = sides.all[a].device();
         result.device_b = sides.all[b].device();
@@ -186,7 +192,7 @@ bool run_second_stage(Stage stage, const Scene& scene, const VerifyOptions& opti
         return true;
     }
     stage.number = 2;
-    stage.seed += second_stage_seeds;
+    stage.purpose = SeedPurpose::verify_again;
     stage.spp = second_stage_spp * results[failed.front()].spp;
     stage.reference_spp = second_stage_spp * results[failed.front()].spp_b;
     stage.seconds = 0;

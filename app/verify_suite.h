@@ -15,8 +15,9 @@ struct PairResult {
     double alpha = 0;  // family-wise, of the stage that decided
     std::uint32_t spp = 0;
     std::uint32_t spp_b = 0;
-    std::uint32_t seed_a = 0;  // of the first run; the others follow
+    std::uint32_t seed_a = 0;  // of the first run of the frame, or of its first chain; see SeedPlan for the others
     std::uint32_t seed_b = 0;
+    std::uint64_t chain_step = 0;  // from the seed of a run's chain to that of its next
     int stage = 1;
     std::string device_a;
     std::string device_b;

@@ -5,6 +5,7 @@
 
 #include "error.h"
 #include "pack_requested.h"
+#include "render/seeds.h"
 #include "report.h"
 #include "scene/pose.h"
 #include "scene_setup.h"
@@ -48,7 +49,7 @@ RenderSettings panel_settings(const RenderSettings& settings, std::uint32_t seed
     RenderSettings of_panel = settings;
     of_panel.width = preview_side(settings.width, divisor);
     of_panel.height = preview_side(settings.height, divisor);
-    of_panel.seed += seed_offset;
+    of_panel.seed = neighbor_seed(settings.seed, seed_offset);
     // A camera moves at any time, and a chain then looks back to where it was.
     of_panel.moves = chains_frames(settings);
     // Where frames go on from one another their spread says too little of the mean's error.
