@@ -1,17 +1,24 @@
 // The scene's acceleration structures: one a mesh or a group of instances, compacted, and one over the instances.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "buffer.h"
+#include "hazards.h"
 #include "instance_groups.h"
 #include "mesh_units.h"
 #include "pack/packed_scene.h"
 #include "scene_memory.h"
 
 namespace diptych {
+
+/// Of a command that builds structures: an upper level reads lower ones.
+inline constexpr std::array uses_of_build = {
+    Use{Resource::scene, Unit::build, Effect::read}, Use{Resource::structures, Unit::build, Effect::read},
+    Use{Resource::structures, Unit::build, Effect::write}, Use{Resource::build_scratch, Unit::build, Effect::write}};
 
 /// Structures, many to a buffer: those of PackedScene::meshes in order, then the groups'. A mesh without triangles has
 /// address 0, and so has one whose instances are all grouped.

@@ -68,10 +68,11 @@ void replace_structures(const Gpu& gpu, const Bindings& bindings, const Structur
     }
 }
 
-void record_values(const vk::raii::CommandBuffer& commands, const Bindings& bindings, const SceneAddresses& addresses,
+void record_values(Recorder& recorder, const Bindings& bindings, const SceneAddresses& addresses,
                    const shared::RenderConstants& constants) {
-    commands.updateBuffer<SceneAddresses>(*bindings.addresses.handle, 0, addresses);
-    commands.updateBuffer<shared::RenderConstants>(*bindings.constants.handle, 0, constants);
+    recorder.use({{Resource::scene, Unit::transfer, Effect::write}});
+    recorder->updateBuffer<SceneAddresses>(*bindings.addresses.handle, 0, addresses);
+    recorder->updateBuffer<shared::RenderConstants>(*bindings.constants.handle, 0, constants);
 }
 
 }  // namespace diptych

@@ -28,7 +28,7 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, const Struc
 
 /// Records that others take the place of the addresses and constants that it was made with. The command carries the
 /// bytes: a view does this in every frame, and memory for staging is dear to allocate.
-void record_values(const vk::raii::CommandBuffer& commands, const Bindings& bindings, const SceneAddresses& addresses,
+void record_values(Recorder& recorder, const Bindings& bindings, const SceneAddresses& addresses,
                    const shared::RenderConstants& constants);
 
 /// Other structures take their places. Nothing that reads the set may be in flight.

@@ -106,9 +106,9 @@ Buffer upload_transforms(const Gpu& gpu, const PackedScene& packed, const Instan
         }
     }
     Uploader uploader(gpu, std::uint64_t{4} << 20U);
-    Buffer buffer = upload_array(gpu, uploader, "transforms of built vertices",
-                                 std::span<const vk::TransformMatrixKHR>(transforms),
-                                 Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress);
+    Buffer buffer =
+        upload_array(gpu, uploader, "transforms of built vertices", std::span<const vk::TransformMatrixKHR>(transforms),
+                     Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress);
     uploader.finish();
     return buffer;
 }
@@ -163,11 +163,12 @@ Batch build_batch(const Gpu& gpu, std::vector<StructureBuild>& builds) {
     const auto count = static_cast<std::uint32_t>(handles.size());
     const vk::raii::QueryPool queries = gpu.device.createQueryPool(
         {.queryType = vk::QueryType::eAccelerationStructureCompactedSizeKHR, .queryCount = count});
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        commands.resetQueryPool(*queries, 0, count);
-        commands.buildAccelerationStructuresKHR(infos, ranges);
-        full_barrier(commands);
-        commands.writeAccelerationStructuresPropertiesKHR(
+    run_commands(gpu, [&](Recorder& recorder) {
+        recorder->resetQueryPool(*queries, 0, count);
+        recorder.use(uses_of_build);
+        recorder->buildAccelerationStructuresKHR(infos, ranges);
+        recorder.use({{Resource::structures, Unit::build, Effect::read}});
+        recorder->writeAccelerationStructuresPropertiesKHR(
             handles, vk::QueryType::eAccelerationStructureCompactedSizeKHR, *queries, 0);
     });
     batch.compacted_bytes =
@@ -192,14 +193,12 @@ void compact_batch(const Gpu& gpu, const Batch& batch, const std::vector<std::si
         levels.structures[indices[i]] = place_structure(gpu, levels.storage.back(), offset, bytes);
         offset += bytes;
     }
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        full_barrier(commands);
-        for (std::size_t i = 0; i < indices.size(); ++i) {
-            commands.copyAccelerationStructureKHR({.src = *batch.structures[i],
-                                                   .dst = *levels.structures[indices[i]],
-                                                   .mode = vk::CopyAccelerationStructureModeKHR::eCompact});
+    run_commands(gpu, [&](Recorder& recorder) {
+        for (std::size_t i = 0; i < indices.size(); ++i) {  // each to a place of its own
+            recorder->copyAccelerationStructureKHR({.src = *batch.structures[i],
+                                                    .dst = *levels.structures[indices[i]],
+                                                    .mode = vk::CopyAccelerationStructureModeKHR::eCompact});
         }
-        full_barrier(commands);
     });
     for (const std::size_t index : indices) {
         levels.addresses[index] =

@@ -15,7 +15,8 @@ CommandSlot::CommandSlot(const Gpu& gpu)
 void CommandSlot::submit(const Record& record) {
     pool_.reset();
     commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    record(commands_);
+    Recorder recorder(commands_);
+    record(recorder);
     commands_.end();
     const vk::SubmitInfo info{.commandBufferCount = 1, .pCommandBuffers = &*commands_};
     diptych::submit(gpu_, info, *fence_);
@@ -45,11 +46,7 @@ void CommandRing::submit(const Record& record) {
     CommandSlot& slot = slots_[next_];
     next_ = (next_ + 1) % slots_.size();
     slot.wait();
-    slot.submit([&](const vk::raii::CommandBuffer& commands) {
-        full_barrier(commands);
-        record(commands);
-        full_barrier(commands);
-    });
+    slot.submit(record);
 }
 
 void CommandRing::drain() {
@@ -62,14 +59,6 @@ void run_commands(const Gpu& gpu, const Record& record) {
     CommandSlot slot(gpu);
     slot.submit(record);
     slot.wait();
-}
-
-void full_barrier(const vk::raii::CommandBuffer& commands) {
-    const vk::MemoryBarrier barrier{.srcAccessMask = vk::AccessFlagBits::eMemoryWrite,
-                                    .dstAccessMask =
-                                        vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite};
-    commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands, {},
-                             barrier, {}, {});
 }
 
 }  // namespace diptych

@@ -5,17 +5,18 @@
 #include <functional>
 
 #include "gpu.h"
+#include "recorder.h"
 
 namespace diptych {
 
-using Record = std::function<void(const vk::raii::CommandBuffer&)>;
+using Record = std::function<void(Recorder&)>;
 
 /// A command buffer with a fence, used again and again.
 class CommandSlot {
 public:
     explicit CommandSlot(const Gpu& gpu);
 
-    /// Records and submits. The slot must not be in flight.
+    /// Records and submits; the submission begins with a barrier. The slot must not be in flight.
     void submit(const Record& record);
     /// Waits for what was submitted, if anything.
     void wait();
@@ -29,8 +30,7 @@ private:
     bool in_flight_ = false;
 };
 
-/// Submissions that nobody waits for: each comes after all that was submitted before it and before all that follows, if
-/// those begin with a barrier.
+/// Submissions that nobody waits for: each comes after all that was submitted before it and before all that follows.
 class CommandRing {
 public:
     explicit CommandRing(const Gpu& gpu) : slots_{CommandSlot(gpu), CommandSlot(gpu)} {}
@@ -38,7 +38,7 @@ public:
     CommandRing(const CommandRing&) = delete;
     CommandRing& operator=(const CommandRing&) = delete;
 
-    /// Records between barriers, and submits; waits first for the older of two in flight.
+    /// Records and submits; waits first for the older of two in flight.
     void submit(const Record& record);
     /// Waits for all.
     void drain();
@@ -50,8 +50,5 @@ private:
 
 /// Records, submits, waits.
 void run_commands(const Gpu& gpu, const Record& record);
-
-/// Makes everything before it visible to everything after it: for set-up work, where finer barriers would gain nothing.
-void full_barrier(const vk::raii::CommandBuffer& commands);
 
 }  // namespace diptych

@@ -50,7 +50,6 @@ void ComputeShader::run(std::span<const Buffer* const> buffers, std::uint32_t co
         commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, *set_, {});
         commands.pushConstants<std::uint32_t>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, {count, chosen});
         commands.dispatch((count + 63) / 64, 1, 1);
-        full_barrier(commands);
     });
 }
 

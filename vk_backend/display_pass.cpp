@@ -9,6 +9,7 @@
 
 #include "../shaders/display.h"
 #include "commands.h"
+#include "pass_table.h"
 #include "readback.h"
 #include "shader_binaries.h"
 #include "tonemap.h"
@@ -86,9 +87,8 @@ struct Change {
     vk::AccessFlags read;
 };
 
-// Memory of every kind is made visible with the image: films too.
+// Of the image alone: buffers are the recorder's affair.
 void change_layout(const vk::raii::CommandBuffer& commands, vk::Image image, const Change& change) {
-    const vk::MemoryBarrier memory{.srcAccessMask = change.written, .dstAccessMask = change.read};
     const vk::ImageMemoryBarrier barrier{.srcAccessMask = change.written,
                                          .dstAccessMask = change.read,
                                          .oldLayout = change.from,
@@ -97,7 +97,7 @@ void change_layout(const vk::raii::CommandBuffer& commands, vk::Image image, con
                                          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                          .image = image,
                                          .subresourceRange = whole};
-    commands.pipelineBarrier(change.before, change.after, {}, memory, {}, barrier);
+    commands.pipelineBarrier(change.before, change.after, {}, {}, {}, barrier);
 }
 
 void bind(const Gpu& gpu, const DisplayPass& pass, DisplayPicture& picture) {
@@ -214,15 +214,17 @@ DisplayPicture make_display_picture(const Gpu& gpu, const DisplayPass& pass, std
 void record_display(const vk::raii::CommandBuffer& commands, const DisplayPass& pass, const DisplayPicture& picture,
                     const DisplayRequest& request, std::uint32_t slot) {
     assert(slot < display_slots);
+    Recorder recorder(commands);
     change_layout(commands, *picture.image,
                   {.from = Layout::eUndefined,
                    .to = Layout::eGeneral,
                    .before = PipelineStage::eAllCommands,
-                   .after = PipelineStage::eTransfer | PipelineStage::eComputeShader,
+                   .after = PipelineStage::eComputeShader,
                    .written = Access::eMemoryWrite,
-                   .read = Access::eTransferWrite | Access::eShaderRead | Access::eShaderWrite});
+                   .read = Access::eShaderWrite});
+    recorder.use({{Resource::histogram, Unit::transfer, Effect::write}});
     commands.fillBuffer(*picture.histogram.handle, 0, VK_WHOLE_SIZE, 0);
-    full_barrier(commands);
+    recorder.use(uses_of(shader_binary("display.comp")));
     const shared::Display display = describe(request, picture);
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pass.pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pass.layout, 0, picture.set, {});
@@ -235,10 +237,11 @@ void record_display(const vk::raii::CommandBuffer& commands, const DisplayPass& 
                    .after = PipelineStage::eFragmentShader | PipelineStage::eTransfer,
                    .written = Access::eShaderWrite,
                    .read = Access::eShaderRead | Access::eTransferRead});
+    recorder.use(
+        {{Resource::histogram, Unit::transfer, Effect::read}, {Resource::readback, Unit::transfer, Effect::write}});
     commands.copyBuffer(*picture.histogram.handle, *picture.histograms.handle,
                         vk::BufferCopy{.dstOffset = std::uint64_t{slot} * histogram_bytes, .size = histogram_bytes});
-    const vk::MemoryBarrier to_host{.srcAccessMask = Access::eTransferWrite, .dstAccessMask = Access::eHostRead};
-    commands.pipelineBarrier(PipelineStage::eTransfer, PipelineStage::eHost, {}, to_host, {}, {});
+    recorder.use({{Resource::readback, Unit::host, Effect::read}});
 }
 
 std::optional<DisplayRange> shown_range(const DisplayPicture& picture, std::uint32_t slot) {
@@ -266,7 +269,8 @@ Image read_display(const Gpu& gpu, const DisplayPicture& picture) {
         const std::size_t pixels = std::size_t{picture.width} * picture.height;
         const Buffer host = make_buffer(gpu, "reading the picture", 4 * pixels, vk::BufferUsageFlagBits::eTransferDst,
                                         MemoryKind::readback);
-        run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
+        run_commands(gpu, [&](Recorder& recorder) {
+            const vk::raii::CommandBuffer& commands = recorder;
             change_layout(commands, *picture.image,
                           {.from = Layout::eShaderReadOnlyOptimal,
                            .to = Layout::eTransferSrcOptimal,
@@ -277,14 +281,16 @@ Image read_display(const Gpu& gpu, const DisplayPicture& picture) {
             const vk::BufferImageCopy copy{
                 .imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1},
                 .imageExtent = {picture.width, picture.height, 1}};
+            recorder.use({{Resource::readback, Unit::transfer, Effect::write}});
             commands.copyImageToBuffer(*picture.image, Layout::eTransferSrcOptimal, *host.handle, copy);
             change_layout(commands, *picture.image,
                           {.from = Layout::eTransferSrcOptimal,
                            .to = Layout::eShaderReadOnlyOptimal,
                            .before = PipelineStage::eTransfer,
-                           .after = PipelineStage::eFragmentShader | PipelineStage::eHost,
-                           .written = Access::eTransferWrite,
-                           .read = Access::eShaderRead | Access::eHostRead});
+                           .after = PipelineStage::eFragmentShader,
+                           .written = {},
+                           .read = Access::eShaderRead});
+            recorder.use({{Resource::readback, Unit::host, Effect::read}});
         });
         Image image = make_image(static_cast<int>(picture.width), static_cast<int>(picture.height), 3);
         const auto* bytes = static_cast<const std::uint8_t*>(host.mapped);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "acceleration.h"
 #include "commands.h"
 #include "pack/emitter_corners.h"
 #include "upload.h"
@@ -102,13 +103,12 @@ void build(const Gpu& gpu, std::vector<shared::vec3> from, EmitterStructure& emi
     const Buffer scratch =
         make_buffer(gpu, "building the emitters' acceleration structure", scratch_bytes + gpu.scratch_alignment,
                     Usage::eStorageBuffer | Usage::eShaderDeviceAddress, MemoryKind::device);
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        for (Level* level : {&bottom, &top}) {
+    run_commands(gpu, [&](Recorder& recorder) {
+        for (Level* level : {&bottom, &top}) {  // the upper one reads the lower one
             level->info.scratchData.deviceAddress = align_up(scratch.address, gpu.scratch_alignment);
-            full_barrier(commands);
-            commands.buildAccelerationStructuresKHR(level->info, &level->range);
+            recorder.use(uses_of_build);
+            recorder->buildAccelerationStructuresKHR(level->info, &level->range);
         }
-        full_barrier(commands);
     });
     emitters.corners = std::move(from);
 }

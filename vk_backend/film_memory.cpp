@@ -30,10 +30,7 @@ FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t featur
     if ((features & shared::FEATURE_FIRST_HIT_LAYERS) != 0) {
         film.first_hits = layer<shared::FilmFirstHit>(gpu, count);
     }
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        record_clear(commands, film);
-        full_barrier(commands);
-    });
+    run_commands(gpu, [&](Recorder& recorder) { record_clear(recorder, film); });
     return film;
 }
 
@@ -43,10 +40,11 @@ bool fits(const FilmMemory& film, int width, int height, std::uint32_t features)
            (film.first_hits.size > 0) == ((features & shared::FEATURE_FIRST_HIT_LAYERS) != 0);
 }
 
-void record_clear(const vk::raii::CommandBuffer& commands, const FilmMemory& film) {
+void record_clear(Recorder& recorder, const FilmMemory& film) {
+    recorder.use({{Resource::film, Unit::transfer, Effect::write}});
     for (const Buffer* buffer : {&film.pixels, &film.moments, &film.first_hits}) {
         if (buffer->size > 0) {
-            commands.fillBuffer(*buffer->handle, 0, VK_WHOLE_SIZE, 0);
+            recorder->fillBuffer(*buffer->handle, 0, VK_WHOLE_SIZE, 0);
         }
     }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "buffer.h"
+#include "recorder.h"
 #include "render/film.h"
 #include "scene_addresses.h"
 
@@ -23,7 +24,7 @@ FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t featur
 bool fits(const FilmMemory& film, int width, int height, std::uint32_t features);
 
 /// Records that the film becomes zeros again.
-void record_clear(const vk::raii::CommandBuffer& commands, const FilmMemory& film);
+void record_clear(Recorder& recorder, const FilmMemory& film);
 
 /// Enters the film's addresses.
 void enter_film(SceneAddresses& addresses, const FilmMemory& film);

@@ -23,21 +23,23 @@ void tell(shared::Dispatch& dispatch, const Slice& slice) {
     dispatch.sample_count = slice.sample_count;
 }
 
-void bind_pass(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, const PipelineLayout& layout,
-               const Bindings& bindings, const shared::Dispatch& dispatch) {
-    bind(commands, vk::PipelineBindPoint::eRayTracingKHR, pipeline.pipeline, layout, bindings, dispatch);
+void bind_pass(Recorder& recorder, const TracePipeline& pipeline, const PipelineLayout& layout,
+               const Bindings& bindings, const shared::Dispatch& dispatch, std::initializer_list<Use> more) {
+    recorder.use(pipeline.uses, more);
+    bind(recorder, vk::PipelineBindPoint::eRayTracingKHR, pipeline.pipeline, layout, bindings, dispatch);
 }
 
-void bind_pass(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& compute, const PipelineLayout& layout,
-               const Bindings& bindings, const shared::Dispatch& dispatch) {
-    bind(commands, vk::PipelineBindPoint::eCompute, compute, layout, bindings, dispatch);
+void bind_pass(Recorder& recorder, const ComputePipeline& compute, const PipelineLayout& layout,
+               const Bindings& bindings, const shared::Dispatch& dispatch, std::initializer_list<Use> more) {
+    recorder.use(compute.uses, more);
+    bind(recorder, vk::PipelineBindPoint::eCompute, compute.pipeline, layout, bindings, dispatch);
 }
 
-void compute_region(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& compute,
-                    const PipelineLayout& layout, const Bindings& bindings, const shared::Dispatch& dispatch) {
+void compute_region(Recorder& recorder, const ComputePipeline& compute, const PipelineLayout& layout,
+                    const Bindings& bindings, const shared::Dispatch& dispatch) {
     const auto groups = [](std::uint32_t pixels) { return (pixels + shared::REGION_SIDE - 1) / shared::REGION_SIDE; };
-    bind_pass(commands, compute, layout, bindings, dispatch);
-    commands.dispatch(groups(dispatch.region.x), groups(dispatch.region.y), 1);
+    bind_pass(recorder, compute, layout, bindings, dispatch);
+    recorder->dispatch(groups(dispatch.region.x), groups(dispatch.region.y), 1);
 }
 
 }  // namespace diptych

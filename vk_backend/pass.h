@@ -20,14 +20,15 @@ std::uint32_t groups_for(std::uint64_t invocations);
 /// Tells a pass its slice.
 void tell(shared::Dispatch& dispatch, const Slice& slice);
 
-/// Binds the pipeline, what it reads, and what it is told.
-void bind_pass(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, const PipelineLayout& layout,
-               const Bindings& bindings, const shared::Dispatch& dispatch);
-void bind_pass(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& compute, const PipelineLayout& layout,
-               const Bindings& bindings, const shared::Dispatch& dispatch);
+/// Waits for what the pass depends on, and binds the pipeline, what it reads, and what it is told. `more` is what its
+/// command uses beside its shaders.
+void bind_pass(Recorder& recorder, const TracePipeline& pipeline, const PipelineLayout& layout,
+               const Bindings& bindings, const shared::Dispatch& dispatch, std::initializer_list<Use> more = {});
+void bind_pass(Recorder& recorder, const ComputePipeline& compute, const PipelineLayout& layout,
+               const Bindings& bindings, const shared::Dispatch& dispatch, std::initializer_list<Use> more = {});
 
 /// Computes over the region of the slice that `dispatch` tells of, with a shader of region.glsl.
-void compute_region(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& compute,
-                    const PipelineLayout& layout, const Bindings& bindings, const shared::Dispatch& dispatch);
+void compute_region(Recorder& recorder, const ComputePipeline& compute, const PipelineLayout& layout,
+                    const Bindings& bindings, const shared::Dispatch& dispatch);
 
 }  // namespace diptych

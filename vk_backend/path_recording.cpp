@@ -25,7 +25,7 @@ Buffer record_buffer(const Gpu& gpu, std::uint64_t bytes) {
 void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& constants,
                                 std::uint32_t vertices_per_path, const Buffer& vertices, const Buffer& summaries) {
     require_bound();
-    const TracePipeline& recorder = pipeline(shader_binary("record.rgen"));
+    const TracePipeline& recording = pipeline(shader_binary("record.rgen"));
     if (!recording_speed_) {
         recording_speed_.emplace(dispatch_seconds_);
     }
@@ -45,8 +45,8 @@ void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& 
         shared::Dispatch dispatch{};
         dispatch.first_path = static_cast<std::uint32_t>(first);
         dispatch.vertices_per_path = vertices_per_path;
-        queue.submit(count, [&](const vk::raii::CommandBuffer& commands) {
-            record_dispatch(commands, recorder, layout_, bindings, dispatch, static_cast<std::uint32_t>(count), 1);
+        queue.submit(count, [&](Recorder& recorder) {
+            record_dispatch(recorder, recording, layout_, bindings, dispatch, static_cast<std::uint32_t>(count), 1);
         });
         first += count;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "pass_table.h"
 #include "shader_binaries.h"
 
 namespace diptych {
@@ -41,11 +42,11 @@ PipelineShaders scene_shaders(Spirv ray_generation, bool alpha) {
     return shaders;
 }
 
-void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline,
-                     const PipelineLayout& layout, const Bindings& bindings, const shared::Dispatch& dispatch,
-                     std::uint32_t width, std::uint32_t height) {
-    bind_pass(commands, pipeline, layout, bindings, dispatch);
-    trace(commands, pipeline, width, height);
+void record_dispatch(Recorder& recorder, const TracePipeline& pipeline, const PipelineLayout& layout,
+                     const Bindings& bindings, const shared::Dispatch& dispatch, std::uint32_t width,
+                     std::uint32_t height) {
+    bind_pass(recorder, pipeline, layout, bindings, dispatch);
+    trace(recorder, pipeline, width, height);
 }
 
 PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes)
@@ -123,12 +124,12 @@ void PathRenderer::begin_film() {
         film_ = films_.emplace_back(std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_)));
         count_bytes();
     }
-    upkeep_->submit([&](const vk::raii::CommandBuffer& commands) {
+    upkeep_->submit([&](Recorder& recorder) {
         if (used) {
-            record_clear(commands, *film_);
+            record_clear(recorder, *film_);
         }
         if (bindings_.set) {
-            record_values(commands, bindings_, addresses(*film_), constants_);
+            record_values(recorder, bindings_, addresses(*film_), constants_);
         }
     });
 }
@@ -153,6 +154,7 @@ TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) cons
     const bool alpha = (features_ & shared::FEATURE_ALPHA) != 0;
     TracePipeline pipeline =
         make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha), pipeline_constants(record_rays));
+    pipeline.uses = uses_of(ray_generation);
     save_pipeline_cache(cache, cache_path);
     return pipeline;
 }
@@ -165,7 +167,7 @@ const TracePipeline& PathRenderer::pipeline(Spirv ray_generation) {
     return pipelines_.emplace(key, compile(ray_generation, false)).first->second;
 }
 
-const vk::raii::Pipeline& PathRenderer::compute_pipeline(Spirv shader) {
+const ComputePipeline& PathRenderer::compute_pipeline(Spirv shader) {
     const auto key = std::tuple(shader.data(), features_);
     if (const auto found = compute_pipelines_.find(key); found != compute_pipelines_.end()) {
         return found->second;
@@ -173,7 +175,8 @@ const vk::raii::Pipeline& PathRenderer::compute_pipeline(Spirv shader) {
     const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
     const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
     // Groups are the hit shaders' affair, so the key goes without.
-    vk::raii::Pipeline made = make_compute_pipeline(*gpu_, layout_, cache, shader, pipeline_constants(false));
+    ComputePipeline made{.pipeline = make_compute_pipeline(*gpu_, layout_, cache, shader, pipeline_constants(false)),
+                         .uses = uses_of(shader)};
     save_pipeline_cache(cache, cache_path);
     return compute_pipelines_.emplace(key, std::move(made)).first->second;
 }
@@ -238,14 +241,13 @@ void PathRenderer::require_bound() const {
 // Some drivers compile at the first dispatch. This path is added to no film, and keeps that time out of the measured
 // ones.
 void PathRenderer::warm_up() const {
-    run_commands(*gpu_, [&](const vk::raii::CommandBuffer& commands) {
+    run_commands(*gpu_, [&](Recorder& recorder) {
         SliceWaves path(wave_pipelines_, layout_, bindings_, waves_, {{0, 0, 1, 1}, 0, 1});
         SliceWaves nothing(wave_pipelines_, layout_, bindings_, waves_, {{0, 0, 1, 1}, 0, 0});
-        path.begin(commands);
-        path.step(commands);
-        path.step(commands);  // the first that may trace a shadow ray
-        nothing.finish(commands);
-        full_barrier(commands);
+        path.begin(recorder);
+        path.step(recorder);
+        path.step(recorder);  // the first that may trace a shadow ray
+        nothing.finish(recorder);
     });
 }
 
@@ -293,9 +295,7 @@ void PathRenderer::move_to(const PackedScene& moment) {
         const std::uint32_t seed = constants_.seed;
         constants_ = moment.constants;
         constants_.seed = seed;
-        upkeep_->submit([&](const vk::raii::CommandBuffer& commands) {
-            record_values(commands, bindings_, addresses(*film_), constants_);
-        });
+        upkeep_->submit([&](Recorder& recorder) { record_values(recorder, bindings_, addresses(*film_), constants_); });
     });
 }
 
@@ -326,23 +326,23 @@ void PathRenderer::submit_slice(TimedQueue& queue, const WavePipelines& pipeline
     SliceWaves waves(pipelines, layout_, bindings, waves_, slice, request);
     std::uint64_t steps = goes_in_waves() ? std::uint64_t{constants_.max_depth} + (resamples() ? 0 : 1) : 0;
     const auto submit = [&](std::uint64_t work, auto&& start) {
-        const TimedPart part{label, [&](const vk::raii::CommandBuffer& commands) {
-                                 start(commands);
+        const TimedPart part{label, [&](Recorder& recorder) {
+                                 start(recorder);
                                  for (std::uint32_t i = 0; i < SliceWaves::most_steps && steps > 0; ++i, --steps) {
-                                     waves.step(commands);
+                                     waves.step(recorder);
                                  }
                                  if (steps == 0) {
-                                     waves.finish(commands);
+                                     waves.finish(recorder);
                                  }
                              }};
         queue.submit(work, std::span(&part, 1));
     };
-    submit(slice.work(), [&](const auto& commands) { waves.begin(commands); });
+    submit(slice.work(), [&](Recorder& recorder) { waves.begin(recorder); });
     while (steps > 0) {
         queue.drain();
         const shared::WaveCounts left = waves.counts_left(*gpu_);
         steps = left.rays.x > 0 ? steps : 1;  // for shadow rays that may be left
-        submit(0, [&](const auto& commands) { waves.resume(commands, left); });
+        submit(0, [&](Recorder& recorder) { waves.resume(recorder, left); });
     }
 }
 

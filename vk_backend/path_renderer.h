@@ -70,7 +70,7 @@ private:
     PipelineConstants pipeline_constants(bool record_rays) const;
     TracePipeline compile(Spirv ray_generation, bool record_rays) const;
     const TracePipeline& pipeline(Spirv ray_generation);
-    const vk::raii::Pipeline& compute_pipeline(Spirv shader);
+    const ComputePipeline& compute_pipeline(Spirv shader);
     void choose_pipelines();
     Structures structures() const;
     void bind();
@@ -85,8 +85,7 @@ private:
     void render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
     void render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
     std::uint64_t pixel_limit(ResamplingStage stage) const;
-    void record_stage(const vk::raii::CommandBuffer& commands, ResamplingStage stage, const Slice& slice,
-                      shared::Dispatch dispatch) const;
+    void record_stage(Recorder& recorder, ResamplingStage stage, const Slice& slice, shared::Dispatch dispatch) const;
     void show_reservoirs(const ResamplingStep& step);
     std::uint64_t slice_budget() const;
     bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
@@ -116,13 +115,13 @@ private:
     PipelineLayout layout_;
     std::map<std::tuple<const std::uint32_t*, std::uint32_t, bool>, TracePipeline>
         pipelines_;  // by ray generation shader, features, groups
-    std::map<std::tuple<const std::uint32_t*, std::uint32_t>, vk::raii::Pipeline>
+    std::map<std::tuple<const std::uint32_t*, std::uint32_t>, ComputePipeline>
         compute_pipelines_;  // by shader, features
     WavePipelines wave_pipelines_;
     WaveMemory waves_;
     std::shared_ptr<ResamplingMemory> resampling_;
-    std::map<ResamplingStage, const TracePipeline*> traced_;         // stages that are one pass, with rays
-    std::map<ResamplingStage, const vk::raii::Pipeline*> computed_;  // or without
+    std::map<ResamplingStage, const TracePipeline*> traced_;      // stages that are one pass, with rays
+    std::map<ResamplingStage, const ComputePipeline*> computed_;  // or without
     CandidatePipelines candidates_;
     ResamplingSchedule schedule_;
     ReservoirHook hook_;
@@ -140,8 +139,8 @@ private:
 PipelineShaders scene_shaders(Spirv ray_generation, bool alpha);
 
 /// Records the commands of one dispatch.
-void record_dispatch(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline,
-                     const PipelineLayout& layout, const Bindings& bindings, const shared::Dispatch& dispatch,
-                     std::uint32_t width, std::uint32_t height);
+void record_dispatch(Recorder& recorder, const TracePipeline& pipeline, const PipelineLayout& layout,
+                     const Bindings& bindings, const shared::Dispatch& dispatch, std::uint32_t width,
+                     std::uint32_t height);
 
 }  // namespace diptych

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cstddef>
 
-#include "commands.h"
 #include "film_pixel.h"
 #include "hit.h"
 #include "readback.h"
@@ -22,6 +21,8 @@ static_assert(most_paths <= most_invocations);
 constexpr std::uint64_t part_of_memory = 16;
 constexpr std::uint64_t bytes_of_path = sizeof(shared::WavePath) + sizeof(shared::FirstHit) +
                                         2 * sizeof(std::uint32_t) + sizeof(shared::Hit) + sizeof(shared::WaveShadow);
+
+constexpr Use counts_read{Resource::wave_counts, Unit::indirect, Effect::read};
 
 std::uint64_t pixels_of(const shared::Dispatch& dispatch) {
     return std::uint64_t{dispatch.region.x} * dispatch.region.y;
@@ -92,56 +93,53 @@ SliceWaves::SliceWaves(const WavePipelines& pipelines, const PipelineLayout& lay
     dispatch_.path_capacity = memory.capacity;
 }
 
-void SliceWaves::begin(const vk::raii::CommandBuffer& commands) {
+void SliceWaves::begin(Recorder& recorder) {
     const std::uint64_t paths = pixels_of(dispatch_) * dispatch_.sample_count;
     if (pipelines_.rays != nullptr) {
         const std::uint64_t listed = pipelines_.begin_appends ? 0 : paths;
-        count_from(commands, {.rays = {static_cast<std::uint32_t>(listed), 1, 1},
+        count_from(recorder, {.rays = {static_cast<std::uint32_t>(listed), 1, 1},
                               .shading = {groups_for(listed), 1, 1},
                               .shadows = {0, 1, 1}});
-        full_barrier(commands);
     }
-    compute(commands, *pipelines_.begin);
-    commands.dispatch(groups_for(paths), 1, 1);
+    bind_pass(recorder, *pipelines_.begin, layout_, bindings_, dispatch_);
+    recorder->dispatch(groups_for(paths), 1, 1);
 }
 
-void SliceWaves::step(const vk::raii::CommandBuffer& commands) {
-    full_barrier(commands);
-    trace(commands, *pipelines_.rays, offsetof(shared::WaveCounts, rays));
+void SliceWaves::step(Recorder& recorder) {
+    trace(recorder, *pipelines_.rays, offsetof(shared::WaveCounts, rays));
     if (pipelines_.shadows != nullptr) {
-        trace(commands, *pipelines_.shadows, offsetof(shared::WaveCounts, shadows));
+        trace(recorder, *pipelines_.shadows, offsetof(shared::WaveCounts, shadows));
     }
-    full_barrier(commands);
-    compute(commands, *pipelines_.shade);
-    commands.dispatchIndirect(*memory_.counts.handle, counts_at(offsetof(shared::WaveCounts, shading)));
+    bind_pass(recorder, *pipelines_.shade, layout_, bindings_, dispatch_, {counts_read});
+    recorder->dispatchIndirect(*memory_.counts.handle, counts_at(offsetof(shared::WaveCounts, shading)));
     ++dispatch_.wave;
 }
 
-void SliceWaves::finish(const vk::raii::CommandBuffer& commands) {
+void SliceWaves::finish(Recorder& recorder) {
     if (pipelines_.film == nullptr) {
         return;
     }
-    full_barrier(commands);
-    compute(commands, *pipelines_.film);
-    commands.dispatch(groups_for(pixels_of(dispatch_)), 1, 1);
+    bind_pass(recorder, *pipelines_.film, layout_, bindings_, dispatch_);
+    recorder->dispatch(groups_for(pixels_of(dispatch_)), 1, 1);
 }
 
 shared::WaveCounts SliceWaves::counts_left(const Gpu& gpu) const {
     return read_array<shared::WaveCounts>(gpu, memory_.counts)[dispatch_.wave];
 }
 
-void SliceWaves::resume(const vk::raii::CommandBuffer& commands, const shared::WaveCounts& left) {
+void SliceWaves::resume(Recorder& recorder, const shared::WaveCounts& left) {
     static_assert(most_steps % 2 == 0);  // so that the queue that is read stays the same
     assert(dispatch_.wave == most_steps);
-    count_from(commands, left);
+    count_from(recorder, left);
 }
 
 // Counts of all waves of a submission, from the first's on, so that none has to be cleared between.
-void SliceWaves::count_from(const vk::raii::CommandBuffer& commands, const shared::WaveCounts& first) {
+void SliceWaves::count_from(Recorder& recorder, const shared::WaveCounts& first) {
     std::array<shared::WaveCounts, most_steps + 1> counts;
     counts.fill({.rays = {0, 1, 1}, .shading = {0, 1, 1}, .shadows = {0, 1, 1}});
     counts[0] = first;
-    commands.updateBuffer<shared::WaveCounts>(*memory_.counts.handle, 0, counts);
+    recorder.use({{Resource::wave_counts, Unit::transfer, Effect::write}});
+    recorder->updateBuffer<shared::WaveCounts>(*memory_.counts.handle, 0, counts);
     dispatch_.wave = 0;
 }
 
@@ -149,14 +147,9 @@ std::uint64_t SliceWaves::counts_at(std::size_t member) const {
     return dispatch_.wave * sizeof(shared::WaveCounts) + member;
 }
 
-void SliceWaves::compute(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline) const {
-    bind_pass(commands, pipeline, layout_, bindings_, dispatch_);
-}
-
-void SliceWaves::trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline,
-                       std::size_t counted) const {
-    bind_pass(commands, pipeline, layout_, bindings_, dispatch_);
-    trace_indirect(commands, pipeline, memory_.counts.address + counts_at(counted));
+void SliceWaves::trace(Recorder& recorder, const TracePipeline& pipeline, std::size_t counted) const {
+    bind_pass(recorder, pipeline, layout_, bindings_, dispatch_, {counts_read});
+    trace_indirect(recorder, pipeline, memory_.counts.address + counts_at(counted));
 }
 
 }  // namespace diptych

@@ -32,12 +32,12 @@ void enter_waves(SceneAddresses& addresses, const WaveMemory& memory);
 
 /// Pipelines of the passes, none of them owned.
 struct WavePipelines {
-    const vk::raii::Pipeline* begin = nullptr;
+    const ComputePipeline* begin = nullptr;
     bool begin_appends = false;           // those that go on; else all do
     const TracePipeline* rays = nullptr;  // this and what follows: null where no path goes on
-    const vk::raii::Pipeline* shade = nullptr;
-    const TracePipeline* shadows = nullptr;    // null where no light is sampled
-    const vk::raii::Pipeline* film = nullptr;  // which begins add to themselves otherwise
+    const ComputePipeline* shade = nullptr;
+    const TracePipeline* shadows = nullptr;  // null where no light is sampled
+    const ComputePipeline* film = nullptr;   // which begins add to themselves otherwise
 };
 
 /// The waves of one slice, which has to have room in the memory, in one submission or, of deep paths, several.
@@ -51,21 +51,20 @@ public:
                const WaveMemory& memory, const Slice& slice, const shared::Dispatch& request = {});
 
     /// Records: all paths begin. First of a submission.
-    void begin(const vk::raii::CommandBuffer& commands);
+    void begin(Recorder& recorder);
     /// Records that all paths which go on go on by one ray, while shadow rays of the step before are traced.
-    void step(const vk::raii::CommandBuffer& commands);
+    void step(Recorder& recorder);
     /// Records: what all paths found is added to the film.
-    void finish(const vk::raii::CommandBuffer& commands);
+    void finish(Recorder& recorder);
 
     /// What there is left to do, once what was recorded has ended.
     shared::WaveCounts counts_left(const Gpu& gpu) const;
     /// Records that there is that to do. First of another submission, after most_steps in the last.
-    void resume(const vk::raii::CommandBuffer& commands, const shared::WaveCounts& left);
+    void resume(Recorder& recorder, const shared::WaveCounts& left);
 
 private:
-    void compute(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline) const;
-    void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::size_t counted) const;
-    void count_from(const vk::raii::CommandBuffer& commands, const shared::WaveCounts& first);
+    void trace(Recorder& recorder, const TracePipeline& pipeline, std::size_t counted) const;
+    void count_from(Recorder& recorder, const shared::WaveCounts& first);
     std::uint64_t counts_at(std::size_t member) const;
 
     const WavePipelines& pipelines_;

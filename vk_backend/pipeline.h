@@ -5,6 +5,7 @@
 #include <span>
 
 #include "buffer.h"
+#include "recorder.h"
 
 namespace diptych {
 
@@ -37,6 +38,12 @@ struct TracePipeline {
     vk::StridedDeviceAddressRegionKHR ray_generation;
     vk::StridedDeviceAddressRegionKHR miss;
     vk::StridedDeviceAddressRegionKHR hit;
+    std::span<const Use> uses;  // of its pass
+};
+
+struct ComputePipeline {
+    vk::raii::Pipeline pipeline = nullptr;
+    std::span<const Use> uses;
 };
 
 /// The specialization constants, in order.

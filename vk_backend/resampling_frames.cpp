@@ -34,9 +34,8 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
                 if (work + slice.work() > slice_budget() || parts.size() == TimedQueue::most_parts) {
                     flush();
                 }
-                parts.push_back({step.place, [this, dispatch, slice, stage = step.stage](const auto& commands) {
-                                     full_barrier(commands);
-                                     record_stage(commands, stage, slice, dispatch);
+                parts.push_back({step.place, [this, dispatch, slice, stage = step.stage](Recorder& recorder) {
+                                     record_stage(recorder, stage, slice, dispatch);
                                  }});
                 work += slice.work();
             }
@@ -54,17 +53,17 @@ std::uint64_t PathRenderer::pixel_limit(ResamplingStage stage) const {
     return stage == ResamplingStage::shade ? most_invocations : gpu_->ray_tracing.maxRayDispatchInvocationCount;
 }
 
-void PathRenderer::record_stage(const vk::raii::CommandBuffer& commands, ResamplingStage stage, const Slice& slice,
+void PathRenderer::record_stage(Recorder& recorder, ResamplingStage stage, const Slice& slice,
                                 shared::Dispatch dispatch) const {
     tell(dispatch, slice);
     if (stage == ResamplingStage::shade) {
-        SliceWaves(wave_pipelines_, layout_, bindings_, waves_, slice, dispatch).begin(commands);
+        SliceWaves(wave_pipelines_, layout_, bindings_, waves_, slice, dispatch).begin(recorder);
     } else if (stage == ResamplingStage::candidates) {
-        record_candidates(commands, candidates_, layout_, bindings_, *resampling_, dispatch);
+        record_candidates(recorder, candidates_, layout_, bindings_, *resampling_, dispatch);
     } else if (const auto found = computed_.find(stage); found != computed_.end()) {
-        compute_region(commands, *found->second, layout_, bindings_, dispatch);
+        compute_region(recorder, *found->second, layout_, bindings_, dispatch);
     } else {
-        record_dispatch(commands, *traced_.at(stage), layout_, bindings_, dispatch, slice.region.width,
+        record_dispatch(recorder, *traced_.at(stage), layout_, bindings_, dispatch, slice.region.width,
                         slice.region.height);
     }
 }

@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "commands.h"
 #include "shader_binaries.h"
 
 namespace diptych {
@@ -87,32 +86,31 @@ Spirv resampling_shader(ResamplingStage stage, const shared::RenderConstants& co
     return shader_binary("restir_shade.comp");
 }
 
-void record_candidates(const vk::raii::CommandBuffer& commands, const CandidatePipelines& pipelines,
-                       const PipelineLayout& layout, const Bindings& bindings, const ResamplingMemory& memory,
-                       const shared::Dispatch& dispatch) {
+void record_candidates(Recorder& recorder, const CandidatePipelines& pipelines, const PipelineLayout& layout,
+                       const Bindings& bindings, const ResamplingMemory& memory, const shared::Dispatch& dispatch) {
     if (pipelines.bsdf != nullptr) {
-        commands.updateBuffer<std::uint32_t>(*memory.candidate_list.handle, 0, empty_list);
-        full_barrier(commands);
+        recorder.use({{Resource::candidate_list, Unit::transfer, Effect::write}});
+        recorder->updateBuffer<std::uint32_t>(*memory.candidate_list.handle, 0, empty_list);
     }
-    compute_region(commands, *pipelines.picked, layout, bindings, dispatch);
+    compute_region(recorder, *pipelines.picked, layout, bindings, dispatch);
+    const auto trace_listed = [&](const TracePipeline& pipeline, const shared::Dispatch& told) {
+        bind_pass(recorder, pipeline, layout, bindings, told,
+                  {{Resource::candidate_list, Unit::indirect, Effect::read}});
+        trace_indirect(recorder, pipeline, memory.candidate_list.address);
+    };
     if (pipelines.bsdf != nullptr) {
         if (pipelines.shares != nullptr) {
-            full_barrier(commands);
-            bind_pass(commands, *pipelines.shares, layout, bindings, dispatch);
-            trace_indirect(commands, *pipelines.shares, memory.candidate_list.address);
+            trace_listed(*pipelines.shares, dispatch);
         }
         shared::Dispatch again = dispatch;
         for (std::uint32_t i = 0; i < shared::BSDF_CANDIDATES_NARROW; ++i) {
             again.pass.iteration = i;
-            full_barrier(commands);
-            bind_pass(commands, *pipelines.bsdf, layout, bindings, again);
-            trace_indirect(commands, *pipelines.bsdf, memory.candidate_list.address);
+            trace_listed(*pipelines.bsdf, again);
         }
     }
     if (pipelines.shadows != nullptr) {
-        full_barrier(commands);
-        bind_pass(commands, *pipelines.shadows, layout, bindings, dispatch);
-        trace(commands, *pipelines.shadows, dispatch.region.x, dispatch.region.y);
+        bind_pass(recorder, *pipelines.shadows, layout, bindings, dispatch);
+        trace(recorder, *pipelines.shadows, dispatch.region.x, dispatch.region.y);
     }
 }
 

@@ -35,15 +35,14 @@ Spirv resampling_shader(ResamplingStage stage, const shared::RenderConstants& co
 
 /// Pipelines of the stage of candidates, none of them owned.
 struct CandidatePipelines {
-    const vk::raii::Pipeline* picked = nullptr;
+    const ComputePipeline* picked = nullptr;
     const TracePipeline* bsdf = nullptr;     // null where no material is sampled
     const TracePipeline* shares = nullptr;   // null where reservoirs are not handed on either
     const TracePipeline* shadows = nullptr;  // null where none is tested
 };
 
 /// Records the stage of candidates for the slice that `dispatch` tells of.
-void record_candidates(const vk::raii::CommandBuffer& commands, const CandidatePipelines& pipelines,
-                       const PipelineLayout& layout, const Bindings& bindings, const ResamplingMemory& memory,
-                       const shared::Dispatch& dispatch);
+void record_candidates(Recorder& recorder, const CandidatePipelines& pipelines, const PipelineLayout& layout,
+                       const Bindings& bindings, const ResamplingMemory& memory, const shared::Dispatch& dispatch);
 
 }  // namespace diptych

@@ -33,9 +33,9 @@ void TimedQueue::submit(std::uint64_t work, std::span<const TimedPart> parts) {
         slot.labels.push_back(part.label);
     }
     slot.submitted = Clock::now();
-    slot.commands.submit([&](const vk::raii::CommandBuffer& commands) {
+    slot.commands.submit([&](Recorder& recorder) {
         const bool timed = gpu_.tick_seconds > 0;
-        full_barrier(commands);
+        const vk::raii::CommandBuffer& commands = recorder;
         // All at the bottom of the pipe: each is then written when all earlier work has ended.
         std::uint32_t query = 0;
         const auto stamp = [&] {
@@ -48,7 +48,7 @@ void TimedQueue::submit(std::uint64_t work, std::span<const TimedPart> parts) {
         }
         stamp();
         for (const TimedPart& part : parts) {
-            part.record(commands);
+            part.record(recorder);
             stamp();
         }
     });

@@ -12,7 +12,7 @@
 
 namespace diptych {
 
-/// A stretch of a submission, timed by itself. It begins with a barrier of its own where it needs what came before.
+/// A stretch of a submission, timed by itself.
 struct TimedPart {
     std::size_t label = 0;
     Record record;

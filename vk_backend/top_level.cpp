@@ -101,10 +101,9 @@ void build(const Gpu& gpu, const TopLevel& top, const Buffer& instances, const B
     const vk::AccelerationStructureBuildRangeInfoKHR range{.primitiveCount =
                                                                static_cast<std::uint32_t>(top.described.size())};
     const vk::AccelerationStructureBuildRangeInfoKHR* ranges = &range;
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        full_barrier(commands);
-        commands.buildAccelerationStructuresKHR(build.info, ranges);
-        full_barrier(commands);
+    run_commands(gpu, [&](Recorder& recorder) {
+        recorder.use(uses_of_build);
+        recorder->buildAccelerationStructuresKHR(build.info, ranges);
     });
 }
 

@@ -40,9 +40,9 @@ RayMemory make_ray_memory(const Gpu& gpu, std::uint32_t capacity) {
     memory.rays = make_buffer(gpu, "recorded rays", std::max(capacity, 1U) * sizeof(shared::RecordedRay), usage,
                               MemoryKind::device);
     memory.counters = make_buffer(gpu, "ray counters", sizeof(shared::RayCounters), usage, MemoryKind::device);
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        commands.fillBuffer(*memory.counters.handle, 0, VK_WHOLE_SIZE, 0);
-        full_barrier(commands);
+    run_commands(gpu, [&](Recorder& recorder) {
+        recorder.use({{Resource::recorded_rays, Unit::transfer, Effect::write}});
+        recorder->fillBuffer(*memory.counters.handle, 0, VK_WHOLE_SIZE, 0);
     });
     return memory;
 }
@@ -68,8 +68,8 @@ struct Tracer {
             const std::uint64_t count = std::min({rays - ray, speed.budget(), limit});
             shared::Dispatch dispatch{};
             dispatch.first_ray = static_cast<std::uint32_t>(ray);
-            queue.submit(count, [&](const vk::raii::CommandBuffer& commands) {
-                record_dispatch(commands, pipeline, layout, bindings, dispatch, static_cast<std::uint32_t>(count), 1);
+            queue.submit(count, [&](Recorder& recorder) {
+                record_dispatch(recorder, pipeline, layout, bindings, dispatch, static_cast<std::uint32_t>(count), 1);
             });
             ray += count;
         }

@@ -27,12 +27,10 @@ void Uploader::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
 
 void Uploader::finish() {
     if (!copies_.empty()) {
-        run_commands(gpu_, [&](const vk::raii::CommandBuffer& commands) {
-            full_barrier(commands);  // a display may be reading what is overwritten
-            for (const Copy& copy : copies_) {
-                commands.copyBuffer(*staging_.handle, copy.target, copy.region);
+        run_commands(gpu_, [&](Recorder& recorder) {
+            for (const Copy& copy : copies_) {  // each to a place of its own
+                recorder->copyBuffer(*staging_.handle, copy.target, copy.region);
             }
-            full_barrier(commands);
         });
     }
     copies_.clear();

@@ -65,8 +65,8 @@ std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<s
         make_pipeline(gpu, layout, cache, scene_shaders(test_shader_binary("trace_rays.rgen"), alpha),
                       {.features = packed.features, .groups = groups.groups.empty() ? 0U : 1U});
     const Bindings bindings = make_bindings(gpu, layout, {.scene = *top.structure}, addresses, packed.constants);
-    run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
-        record_dispatch(commands, pipeline, layout, bindings, {}, static_cast<std::uint32_t>(rays.size()), 1);
+    run_commands(gpu, [&](Recorder& recorder) {
+        record_dispatch(recorder, pipeline, layout, bindings, {}, static_cast<std::uint32_t>(rays.size()), 1);
     });
     const Film host = read_film(gpu, film);
     std::vector<TracedRay> traced;
