@@ -211,7 +211,7 @@ TEST_CASE("converge tells a bias from noise, and a reference without errors from
     };
     const auto measured = [&](const std::string& out, const std::string& file) {
         const ProcessResult result = converge(folder, scene, out,
-                                              {"--methods", "cpu:path:independent", "--spp-max", "32", "--runs", "8",
+                                              {"--methods", "cpu:path:independent", "--spp-max", "128", "--runs", "8",
                                                "--reference", file, "--max-depth", "2", "--json"});
         INFO(result.err);
         REQUIRE(result.exit_code == 0);
