@@ -7,6 +7,7 @@
 #include "command.h"
 #include "error.h"
 #include "image/atomic_file.h"
+#include "random_scene/scene_files.h"
 #include "report.h"
 #include "scene/generate.h"
 #include "scene/gltf_write.h"
@@ -18,13 +19,17 @@ namespace {
 constexpr const char* generate_examples = R"(Examples:
   diptych generate --list
   diptych generate cornell -o cornell.gltf
-  diptych generate many-lights -o street.glb --count 100000 --seed 7)";
+  diptych generate many-lights -o street.glb --count 100000 --seed 7
+  diptych generate random -o random.gltf --seed 7)";
+
+constexpr const char* random_name = "random";
 
 struct GenerateArguments {
     std::string name;
     std::string output;
     GenerateOptions generate;
-    bool sets_street = false;  // --count or --seed was given
+    bool sets_count = false;
+    bool sets_seed = false;
     bool list = false;
     bool json = false;
 };
@@ -33,6 +38,7 @@ int list_scenes(bool json) {
     nlohmann::ordered_json names = nlohmann::ordered_json::array();
     std::vector<SceneGenerator> all(scene_generators().begin(), scene_generators().end());
     all.insert(all.end(), extreme_scene_generators().begin(), extreme_scene_generators().end());
+    all.push_back({random_name, "a small scene drawn at random by --seed, as verify --random judges them", nullptr});
     for (const SceneGenerator& generator : all) {
         if (json) {
             names.push_back({{"name", generator.name}, {"description", generator.description}});
@@ -46,6 +52,13 @@ int list_scenes(bool json) {
     return exit_done;
 }
 
+/// Returns what `diptych render` wants beside the file.
+std::string write_generated(const GenerateArguments& options) {
+    const GeneratedScene generated = generate_scene(options.name, options.generate);
+    write_gltf(generated.scene, options.output);
+    return generated.recommended_arguments;
+}
+
 int run_generate(const GenerateArguments& options) {
     if (options.list) {
         return list_scenes(options.json);
@@ -53,8 +66,10 @@ int run_generate(const GenerateArguments& options) {
     if (options.name.empty()) {
         throw Error("generate: wants the NAME of a scene; see diptych generate --list");
     }
-    if (options.sets_street && options.name != "many-lights") {
-        throw Error(fmt::format("generate {}: --count and --seed are for many-lights alone", options.name));
+    const bool random = options.name == random_name;
+    const bool street = options.name == "many-lights";
+    if ((options.sets_count && !street) || (options.sets_seed && !street && !random)) {
+        throw Error(fmt::format("generate {}: --count is for many-lights alone, --seed for it and random", options.name));
     }
     if (options.output.empty()) {
         throw Error(fmt::format("generate {}: wants a file to write, -o FILE", options.name));
@@ -67,9 +82,8 @@ int run_generate(const GenerateArguments& options) {
     if (extension == ".gltf") {
         check_file_can_be_created(std::filesystem::path(options.output).replace_extension(".bin"));
     }
-    const GeneratedScene generated = generate_scene(options.name, options.generate);
-    write_gltf(generated.scene, options.output);
-    const std::string arguments = generated.recommended_arguments;
+    const std::string arguments = random ? write_random_scene(make_random_scene(options.generate.seed), options.output)
+                                         : write_generated(options);
     if (options.json) {
         print_json({{"name", options.name}, {"output", options.output}, {"recommended_arguments", arguments}});
     } else {
@@ -90,12 +104,13 @@ void add_generate(CLI::App& app, Run& run) {
                              ->check(CLI::Range(1U, 100000000U))
                              ->capture_default_str();
     CLI::Option* seed =
-        command->add_option("--seed", options->generate.seed, "many-lights: which street")->capture_default_str();
+        command->add_option("--seed", options->generate.seed, "many-lights: which street; random: which scene")->capture_default_str();
     command->add_flag("--list", options->list, "Say which scenes there are");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     command->footer(generate_examples);
     command->callback([options, count, seed, &run] {
-        options->sets_street = count->count() > 0 || seed->count() > 0;
+        options->sets_count = count->count() > 0;
+        options->sets_seed = seed->count() > 0;
         run = [options] { return run_generate(*options); };
     });
 }

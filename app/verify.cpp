@@ -15,6 +15,7 @@
 #include "scene/pose.h"
 #include "scene_setup.h"
 #include "verify_paired.h"
+#include "verify_random.h"
 #include "verify_report.h"
 #include "verify_sequence.h"
 
@@ -31,6 +32,7 @@ constexpr const char* verify_examples = R"(Examples:
   diptych verify cornell.gltf --fresh-seeds --time 3600
   diptych verify cornell.gltf --common-seeds --time 60 --require-pass
   diptych verify cornell.gltf --paired --spp 16
+  diptych verify --random 100 --seed 1 -o failures
   diptych verify moving.gltf --backends cpu --integrators restir --against cpu/path --frame 0,1,2,4,8,16 --spp 256
 Renders each side --runs times, every run with a seed of its own, and compares the runs' means by Welch's test: of the image, of all
 tiles together (Fisher), and of the least likely tile. FAIL: more than chance would do, over all pairs together, at --alpha. PASS: no such
@@ -130,6 +132,12 @@ int verify_paths(const VerifyOptions& options) {
 }
 
 int run_verify(VerifyOptions options) {
+    if (options.random > 0) {
+        return verify_random(options);
+    }
+    if (options.arguments.request.scene.empty()) {
+        throw Error("verify: wants a scene, .gltf or .glb, or --random N");
+    }
     check_verify_options(options);
     if (options.paired) {
         return verify_paths(options);
@@ -175,7 +183,7 @@ void add_verify(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("verify", "Test that panels and integrators have one expectation");
     auto options = std::make_shared<VerifyOptions>();
     RenderRequest& request = options->arguments.request;
-    command->add_option("scene", request.scene, ".gltf or .glb file")->required();
+    command->add_option("scene", request.scene, ".gltf or .glb file");
     command->add_option("--integrators", options->integrators, "Comma-separated")
         ->delimiter(',')
         ->capture_default_str();
@@ -250,6 +258,7 @@ void add_verify(CLI::App& app, Run& run) {
     command->add_flag("--validation", request.validation, "Run Vulkan's validation layers");
     command->add_option("-o,--output", options->output, "Folder for a map and a histogram of each pair's p-values");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
+    add_random_option(*command, *options);
     command->footer(verify_examples);
     options->command = command;
     command->callback([options, seed, &run] {

@@ -1,0 +1,76 @@
+// Have all renderers one expectation on a random scene, and on many of them?
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pack/packed_scene.h"
+#include "random_scene/random_scene.h"
+#include "render/renderer.h"
+#include "stats/bias_verdict.h"
+
+namespace diptych {
+
+/// Renderers by name, from a scene and its pack, which outlive them. An empty function leaves that renderer out.
+struct Renderers {
+    using Make = std::function<std::unique_ptr<Renderer>(const Scene&, const PackedScene&, const RenderSettings&)>;
+    Make cpu;
+    Make oracle;  // the CPU is compared with it, by seeds of their own
+    Make vulkan;  // compared with the CPU, by common seeds
+};
+
+struct JudgeOptions {
+    std::vector<Integrator> integrators{Integrator::brdf, Integrator::direct, Integrator::path, Integrator::ris,
+                                        Integrator::restir};
+    std::uint32_t runs = 16;         // a side
+    std::uint32_t first_spp = 8;     // of a run; doubled until the half-width is reached
+    std::uint32_t most_spp = 256;
+    std::uint32_t common_spp = 4;    // of a run where both sides have its seed
+    double half_width_percent = 1;   // of the image mean (95 %), at which no more samples are taken
+    double alpha = 1e-3;             // chance of a false FAIL, over all comparisons together
+    double suspicious_p = 0.01;      // a pair with a test below is judged by a second stage alone
+    std::uint32_t second_stage = 4;  // as many times the samples, with other seeds
+    std::uint32_t seed = 1;          // of the renders
+};
+
+/// One comparison of two sides on one scene.
+struct RandomPair {
+    std::uint64_t scene = 0;  // its seed
+    std::string side;         // "cpu/path"
+    std::string reference;    // "oracle/mis"
+    Integrator integrator = Integrator::path;
+    TileComparison comparison;
+    std::uint32_t spp = 0;        // of each run of `side`
+    std::uint64_t nonfinite = 0;  // samples dropped
+    int stage = 1;                // that decides
+    PairVerdict verdict;          // judge_all's to set
+};
+
+/// Renders the scene, read from its files, on every side and compares. What looks unlikely is rendered again with seeds
+/// of its own, and the second comparison stands alone, so that its p-values mean what they say.
+std::vector<RandomPair> compare_scene(const RandomScene& random, const std::filesystem::path& path,
+                                      const Renderers& renderers, const JudgeOptions& options);
+
+/// Holm's procedure over all comparisons of all scenes.
+void judge_all(std::vector<RandomPair>& pairs, const JudgeOptions& options);
+
+/// How narrow the intervals of the image means are, percent.
+struct ReachedPower {
+    std::size_t pairs = 0;
+    double median = 0;
+    double worst = 0;
+    double reached_share = 1;  // of the pairs, those at most half_width_percent wide
+};
+
+/// Of the pairs whose reference is that backend.
+ReachedPower reached_power(const std::vector<RandomPair>& pairs, const std::string& reference,
+                           double half_width_percent);
+
+/// FAIL where a pair fails; INCONCLUSIVE where none does but fewer than nine tenths of the pairs of a reference are known well enough.
+Verdict verdict_of(const std::vector<RandomPair>& pairs, double half_width_percent);
+
+}  // namespace diptych
