@@ -41,6 +41,17 @@ FileVertex between(const FileTriangle& triangle, double u, double v) {
     return out;
 }
 
+/// The normal seen from `to_eye`, at a cosine of 10^-3 at least; the triangle's where that lies below the surface.
+glm::dvec3 bent(const glm::dvec3& n, const glm::dvec3& facing, const glm::dvec3& to_eye) {
+    constexpr double least = 1e-3;
+    if (dot(n, to_eye) >= least) {
+        return n;
+    }
+    const glm::dvec3 across = normalize(n - dot(n, to_eye) * to_eye);
+    const glm::dvec3 out = least * to_eye + std::sqrt(1 - least * least) * across;
+    return dot(out, facing) > 0 ? out : facing;
+}
+
 }  // namespace
 
 glm::dvec4 FileScene::texel(const json& slot, const FileVertex& at, bool srgb) const {
@@ -96,7 +107,7 @@ glm::dvec3 FileScene::normal(const FileTriangle& triangle, const FileVertex& at,
     const double side = dot(smooth, facing) < 0 ? -1 : 1;
     const json slot = triangle.material.value("normalTexture", json());
     if (slot.is_null() || !at.tangent || !at.normal) {
-        return side * smooth;
+        return bent(side * smooth, facing, to_eye);
     }
     const glm::dvec3 along = m * glm::dvec3(*at.tangent);
     const glm::dvec3 t = normalize(along - dot(along, smooth) * smooth);

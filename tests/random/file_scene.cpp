@@ -42,7 +42,7 @@ FileScene::FileScene(const std::filesystem::path& path) : document_(json::parse(
     const std::string bin = whole(path.parent_path() / document_.at("buffers").at(0).at("uri"));
     bytes_.assign(bin.begin(), bin.end());
     for (const json& image : document_.value("images", json::array())) {
-        images_.push_back(read_raw(path.parent_path() / image.at("uri")).image);
+        images_.push_back(read_raw(path.parent_path() / image.at("uri").get<std::string>(), "", {"A"}).image);
     }
     cameras_.resize(document_.at("cameras").size());
     lights_.resize(document_.value("/extensions/KHR_lights_punctual/lights"_json_pointer, json::array()).size());
