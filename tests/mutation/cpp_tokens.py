@@ -1,8 +1,9 @@
-"""A tokenizer for this project's C++ and GLSL, and which of its tokens are code that runs: bodies of functions, without what the
-compiler evaluates (constexpr, case labels, template arguments, array bounds) and without messages (throw, fmt::format).
+"""A tokenizer for this project's C++ and GLSL, and which of its tokens are code that runs: bodies of functions, without
+what the compiler evaluates (constexpr, case labels, template arguments, array bounds) and without messages (throw,
+fmt::format).
 
-It relies on the project's clang-format style: a binary operator has white space on both sides, an opening angle bracket has none before
-it, and `*` and `&` of a type stand next to that type.
+It relies on the project's clang-format style: a binary operator has white space on both sides, an opening angle bracket
+has none before it, and `*` and `&` of a type stand next to that type.
 """
 import re
 from dataclasses import dataclass
@@ -19,10 +20,10 @@ PATTERN = re.compile(r'''
 DIRECTIVE = re.compile(r'[ \t]*#(?:[^\n\\]|\\.)*', re.S)
 CLOSING = {'(': ')', '[': ']', '{': '}'}
 # Parentheses after these names hold nothing that a program computes, or only messages.
-UNEVALUATED = {'static_assert', 'assert', 'sizeof', 'decltype', 'alignas', 'alignof', 'noexcept', 'offsetof', 'ASSERT_SIZE',
-               'ASSERT_OFFSET'}
-KEYWORDS = {'return', 'else', 'do', 'throw', 'new', 'delete', 'case', 'co_return', 'goto', 'const', 'if', 'while', 'for', 'switch',
-            'static', 'auto', 'typename', 'try', 'catch', 'default', 'PRECISE', 'LOCAL'}
+UNEVALUATED = {'static_assert', 'assert', 'sizeof', 'decltype', 'alignas', 'alignof', 'noexcept', 'offsetof',
+               'ASSERT_SIZE', 'ASSERT_OFFSET'}
+KEYWORDS = {'return', 'else', 'do', 'throw', 'new', 'delete', 'case', 'co_return', 'goto', 'const', 'if', 'while',
+            'for', 'switch', 'static', 'auto', 'typename', 'try', 'catch', 'default', 'PRECISE', 'LOCAL'}
 
 
 @dataclass
@@ -78,7 +79,7 @@ def match_brackets(tokens):
             continue
         if token.text in CLOSING:
             open_brackets.append(i)
-        elif token.text in CLOSING.values() and open_brackets and CLOSING[tokens[open_brackets[-1]].text] == token.text:
+        elif open_brackets and CLOSING[tokens[open_brackets[-1]].text] == token.text:
             token.partner = open_brackets.pop()
             tokens[token.partner].partner = i
 
@@ -149,7 +150,8 @@ def leave_out_constants(tokens, begin, end):
             while k < end and tokens[k].text != ':':
                 k += 1
             leave_out(tokens, i, k)
-        elif token.text == '(' and (before.text in UNEVALUATED or before.text == 'format' and tokens[i - 2].text == '::'):
+        elif token.text == '(' and (before.text in UNEVALUATED
+                                    or before.text == 'format' and tokens[i - 2].text == '::'):
             leave_out(tokens, i, token.partner)
         elif token.text == '<' and not token.spaced_before and before.kind == 'name':
             leave_out(tokens, i, angle_end(tokens, i) + 1)
@@ -166,8 +168,9 @@ def is_subscript(tokens, i):
     before = tokens[i - 1]
     if before.text in ('auto', '&', '[') or not before.ends_operand() or before.text == '}':
         return False
-    declares = before.kind == 'name' and (tokens[i - 2].kind == 'name' and tokens[i - 2].text not in ('return', 'else')
-                                          or tokens[i - 2].text == '>' and not tokens[i - 2].spaced_before)
+    typed = tokens[i - 2]
+    declares = before.kind == 'name' and (typed.kind == 'name' and typed.text not in ('return', 'else')
+                                          or typed.text == '>' and not typed.spaced_before)
     return not declares
 
 

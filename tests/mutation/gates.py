@@ -1,4 +1,4 @@
-"""Gates: the tests that CTest knows, each a process of its own. What they reach, how long they take, and which of them fails."""
+"""Gates: the tests that CTest knows, each a process of its own: what they reach, their time, and which of them fails."""
 import json
 import os
 import pathlib
@@ -25,23 +25,25 @@ class Gate:
 
 def read_gates(build, programs):
     """The tests of these programs (tests_NAME) that `./test` runs."""
-    shown = subprocess.run(['ctest', '--test-dir', build, '--show-only=json-v1'], capture_output=True, check=True, text=True).stdout
+    command = ['ctest', '--test-dir', build, '--show-only=json-v1']
+    shown = subprocess.run(command, capture_output=True, check=True, text=True).stdout
     gates = []
     for test in json.loads(shown)['tests']:
         properties = {p['name']: p['value'] for p in test.get('properties', [])}
         program = test['name'].split(':')[0]
         if program not in programs or 'nightly' in properties.get('LABELS', []) or 'command' not in test:
             continue
-        gates.append(Gate(test['name'], test['command'], properties.get('WORKING_DIRECTORY', str(build)), bool(properties.get('RUN_SERIAL'))))
+        folder = properties.get('WORKING_DIRECTORY', str(build))
+        gates.append(Gate(test['name'], test['command'], folder, bool(properties.get('RUN_SERIAL'))))
     return gates
 
 
 def run(gate, limit, **variables):
-    """(outcome, seconds): pass, fail, skip or timeout. A gate that is ended is ended with all processes that it started."""
+    """(outcome, seconds): pass, fail, skip or timeout. Out of time, it is ended with all processes that it started."""
     environment = {**os.environ, **{k: str(v) for k, v in variables.items() if v is not None}}
     start = time.monotonic()
-    process = subprocess.Popen(gate.command, cwd=gate.folder, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL, start_new_session=True)
+    process = subprocess.Popen(gate.command, cwd=gate.folder, env=environment, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
         code = process.wait(limit)
         outcome = 'pass' if code == 0 else 'skip' if code == SKIPPED else 'fail'
@@ -69,14 +71,15 @@ def without_device(device):
 
 
 def judge(number, gates, device, budget):
-    """Runs the gates that reach this mutant, fast ones first, until one fails: (outcome, gate, seconds, gates run). `budget`: seconds after
-    which no further gate begins."""
+    """Runs the gates that reach this mutant, fast ones first, until one fails: (outcome, gate, seconds, gates run).
+    `budget`: seconds after which no further gate begins."""
     start = time.monotonic()
-    reaching = sorted((g for g in gates if number in g.reached and g.outcome in ('pass', 'skip')), key=lambda g: g.seconds)
+    reaching = [g for g in gates if number in g.reached and g.outcome in ('pass', 'skip')]
+    reaching.sort(key=lambda g: g.seconds)
     for count, gate in enumerate(reaching, 1):
-        # Far beyond the time of the right code, on a machine that others use too.
-        outcome, _ = run(gate, 20 + 10 * gate.seconds, DIPTYCH_MUTATION=number, **without_device(device))
-        if outcome == 'fail' and gate.serial and run(gate, 20 + 10 * gate.seconds, DIPTYCH_MUTATION=0, **without_device(device))[0] == 'fail':
+        limit = 20 + 10 * gate.seconds  # far beyond the time of the right code, on a machine that others use too
+        outcome, _ = run(gate, limit, DIPTYCH_MUTATION=number, **without_device(device))
+        if outcome == 'fail' and gate.serial and run(gate, limit, DIPTYCH_MUTATION=0, **without_device(device))[0] == 'fail':
             continue  # the clock failed, not the mutant
         if outcome in ('fail', 'timeout'):
             return ('killed' if outcome == 'fail' else 'timeout'), gate.name, time.monotonic() - start, count

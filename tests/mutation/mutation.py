@@ -146,8 +146,13 @@ def write_mutated(tree, texts, mutants):
 
 
 def build(tree, folder, texts, mutants, targets, jobs, log):
-    """Builds until all mutants that do not compile are out."""
+    """Builds until all mutants that do not compile are out. Which these are is kept, so that a next build begins without them."""
     folder.mkdir(parents=True, exist_ok=True)
+    kept = folder.parent / 'not-compiled.txt'
+    known = set(kept.read_text().splitlines()) if kept.exists() else set()
+    for mutant in mutants:
+        if mutant.key in known:
+            mutant.outcome = 'not compiled'
     places = write_mutated(tree, texts, mutants)
     with log.open('w') as file:
         if subprocess.run(['cmake', '-S', tree, '-B', folder, '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release', '-DCMAKE_CXX_FLAGS=-w'], stdout=file,
@@ -162,11 +167,12 @@ def build(tree, folder, texts, mutants, targets, jobs, log):
                 break
         else:
             return
-        guilty = blamed(done.stdout, places)
+        guilty = blamed(done.stdout, places, str(folder))
         for mutant in mutants:
             if mutant.number in guilty:
                 mutant.outcome = 'not compiled'
         say(f'{len(guilty)} mutants do not compile: {sorted(guilty)}')
+        kept.write_text(''.join(m.key + '\n' for m in mutants if m.outcome == 'not compiled'))
         if not guilty:
             fail(f'the build failed, not by a mutant: {log}')
         places = write_mutated(tree, texts, mutants)

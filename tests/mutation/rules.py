@@ -1,4 +1,4 @@
-"""The rules by which mutants are made: find_sites lists every place of a source where a rule applies, and what it writes there."""
+"""The rules by which mutants are made. find_sites lists every place where a rule applies, and what it writes there."""
 import re
 from dataclasses import dataclass
 
@@ -8,8 +8,8 @@ COMPONENT = {'x': 'y', 'y': 'x', 'z': 'y', 'w': 'z'}  # a two-vector has the oth
 FLIPPED = {'<': '>=', '>': '<=', '<=': '>', '>=': '<', '==': '!=', '!=': '=='}
 OTHER_EXTREME = {'min': 'max', 'max': 'min'}
 # Between these an arithmetic expression ends.
-SEPARATORS = {',', ';', '=', '+=', '-=', '*=', '/=', '%=', '&=', '|=', '^=', '<<=', '>>=', '?', ':', '&&', '||', '!', '<', '>', '<=', '>=',
-              '==', '!=', '&', '|', '^', '~', '<<', '>>', '<=>'}
+SEPARATORS = {',', ';', '=', '+=', '-=', '*=', '/=', '%=', '&=', '|=', '^=', '<<=', '>>=', '?', ':', '&&', '||', '!',
+              '<', '>', '<=', '>=', '==', '!=', '&', '|', '^', '~', '<<', '>>', '<=>'}
 KEYWORDS = {'return', 'else', 'do', 'throw', 'case', 'co_return', 'new', 'delete'}
 
 
@@ -24,8 +24,8 @@ class Site:
 
 
 class Source:
-    """One file's tokens and what is asked about them. `known` holds names of all files, for counterparts of other moments, and
-    `constants` the names of their fp32 constants."""
+    """One file's tokens and what is asked about them. `known` holds names of all files, for counterparts of other
+    moments, and `constants` the names of their fp32 constants."""
 
     def __init__(self, text, known=frozenset(), constants=frozenset()):
         self.text, self.known, self.constants = text, known, constants
@@ -60,8 +60,9 @@ class Source:
         while True:
             while tokens[i].text in (')', ']') and tokens[i].partner >= 0:
                 i = tokens[i].partner
-                if not (tokens[i - 1].kind == 'name' and tokens[i - 1].text not in KEYWORDS or tokens[i - 1].text in (')', ']')
-                        or tokens[i - 1].text == '>' and not tokens[i - 1].spaced_before):
+                before = tokens[i - 1]
+                if not (before.kind == 'name' and before.text not in KEYWORDS or before.text in (')', ']')
+                        or before.text == '>' and not before.spaced_before):
                     return i
                 i -= 1
             if tokens[i].text == '>' and not tokens[i].spaced_before:  # of template arguments
@@ -95,8 +96,15 @@ class Source:
         return i
 
 
+def opens_block(tokens, begin, i):
+    """Whether token i opens a block of statements, not a list of values. `begin`: of its bracket level."""
+    before = tokens[i - 1]
+    values = i > begin and before.text != 'else' and (before.kind == 'name' or before.text in ('>', '(', ',', '='))
+    return tokens[i].text == '{' and not values
+
+
 def atoms(source, begin, end):
-    """Runs of tokens at one bracket level, between separators: (first, last, separator before, separator after) of each run."""
+    """Runs of tokens at one bracket level: (first, last, separator before, separator after) of each."""
     tokens = source.tokens
     runs, first, before, i = [], None, None, begin
 
@@ -108,8 +116,7 @@ def atoms(source, begin, end):
 
     while i < end:
         token = tokens[i]
-        block = token.text == '{' and not (
-            i > begin and (tokens[i - 1].kind == 'name' or tokens[i - 1].text in ('>', '(', ',', '=')) and tokens[i - 1].text != 'else')
+        block = opens_block(tokens, begin, i)
         template = token.text in ('<', '>', '>>') and not token.spaced_before
         reference = token.text == '&' and not token.spaced_before
         if block or (token.text in SEPARATORS and not template and not reference) or token.text in KEYWORDS:
@@ -137,7 +144,8 @@ def arithmetic(source, first, last):
         if tokens[i].partner > i:
             i = tokens[i].partner
         i += 1
-    operators = [i for i in level if tokens[i].text in '+-*/%' and tokens[i].is_binary() and i > first and tokens[i - 1].ends_operand()]
+    operators = [i for i in level
+                 if tokens[i].text in '+-*/%' and tokens[i].is_binary() and i > first and tokens[i - 1].ends_operand()]
     sums = [i for i in operators if tokens[i].text in '+-']
     for n, i in enumerate(sums):
         after = sums[n + 1] - 1 if n + 1 < len(sums) else last
@@ -168,15 +176,10 @@ def comparisons_and_conditions(source, begin, end):
                        f'{source.words(left[0], left[1])} {FLIPPED[left[3]]} {source.words(right[0], right[1])}')
     # Operands of && and ||, and what stands before a question mark.
     weaker = {',', ';', '=', '+=', '-=', '*=', '/=', '|=', '&=', '?', ':', '{', None} | KEYWORDS
-    start, stops = begin, []
-    i = begin
-    operand = begin
-    level = []
+    start, stops, operand, i = begin, [], begin, begin
     while i < end:
-        level.append(i)
         text = tokens[i].text
-        block = text == '{' and not (i > begin and (tokens[i - 1].kind == 'name' or tokens[i - 1].text in ('>', '(', ',', '='))
-                                     and tokens[i - 1].text != 'else')
+        block = opens_block(tokens, begin, i)
         if text in ('&&', '||'):
             stops.append((operand, i - 1, text))
             operand = i + 1
@@ -207,13 +210,14 @@ def at_token(source, i):
     tokens = source.tokens
     token, before = tokens[i], tokens[i - 1]
     after = tokens[i + 1] if i + 1 < len(tokens) else token
-    if token.kind == 'name' and before.text == '.' and tokens[i - 2].ends_operand() and token.text in COMPONENT and after.text != '(':
+    if token.text in COMPONENT and before.text == '.' and tokens[i - 2].ends_operand() and after.text != '(':
         first = source.chain_begin(i)
         source.add('component', first, i, source.words(first, i - 1) + COMPONENT[token.text])
     elif token.text in OTHER_EXTREME and after.text == '(':
         first = source.chain_begin(i)
         prefix = source.words(first, i - 1) if first < i else ''
-        source.add('min-max', first, after.partner, prefix + OTHER_EXTREME[token.text] + source.words(i + 1, after.partner))
+        call = OTHER_EXTREME[token.text] + source.words(i + 1, after.partner)
+        source.add('min-max', first, after.partner, prefix + call)
     elif token.kind == 'number':
         moved = moved_constant(token.text)
         if moved:

@@ -1,4 +1,5 @@
 """All sampled mutants in one source, each behind a switch that the environment sets when a program starts."""
+import os
 import re
 from dataclasses import dataclass, field
 
@@ -58,11 +59,12 @@ def overlaps_partly(a, b):
 
 
 def render(text, mutants):
-    """The source with switches, and for every mutant its place there: [(line, column), (line, column)]. `mutants`: (number, site)."""
+    """The source with switches, and for every mutant its place there: number -> ((line, column), (line, column)).
+    `mutants`: (number, site)."""
     roots = []
     for number, site in sorted(mutants, key=lambda m: (m[1].begin, -m[1].end)):
         level = roots
-        while level and level[-1].end >= site.end and level[-1].begin <= site.begin and (level[-1].begin, level[-1].end) != (site.begin, site.end):
+        while level and level[-1].end >= site.end and (level[-1].begin, level[-1].end) != (site.begin, site.end):
             level = level[-1].inside
         if not (level and (level[-1].begin, level[-1].end) == (site.begin, site.end)):
             level.append(Node(site.begin, site.end))
@@ -101,23 +103,27 @@ def render(text, mutants):
 
 
 def for_both_languages(original, rendered):
-    """Shaders read the right code from the same file. Compilers count the lines of the rewritten one as if it stood alone."""
+    """Shaders read the right code from the same file. Compilers count the rewritten one's lines as if it stood alone."""
     return f'#if defined(__cplusplus)\n#line 1\n{rendered}\n#else\n{original}\n#endif\n'
 
 
-def blamed(log, files):
-    """The mutants that a compiler's errors name. `files`: path as compiled -> {number: place}. The innermost around each error; where
-    there is none, all of its line."""
+def blamed(log, files, folder='/'):
+    """The mutants that a compiler's errors name: the innermost around each error; where there is none, all of its line.
+    `files`: path as compiled -> {number: place}; `folder`: where the compiler ran."""
     found = set()
-    for path, line, column in re.findall(r'^(?:In file included from )?(/[^\s:]+):(\d+):(\d+): (?:fatal )?error:', log, re.M):
+
+    def places_in(path):
+        return files.get(os.path.normpath(os.path.join(folder, path)), {})
+
+    for path, line, column in re.findall(r'^([^\s:]+):(\d+):(\d+): (?:fatal )?error:', log, re.M):
         where = (int(line), int(column))
-        places = files.get(path, {})
+        places = places_in(path)
         around = [(e[0] - b[0], e[1] - b[1], n) for n, (b, e) in places.items() if b <= where < e]
         if around:
             found.add(min(around)[2])
         else:
             found.update(n for n, (b, e) in places.items() if b[0] <= where[0] <= e[0])
     if not found:  # an error elsewhere that came of instantiating a template
-        for path, line in re.findall(r'^(/[^\s:]+):(\d+):\d+:\s+required from', log, re.M):
-            found.update(n for n, (b, e) in files.get(path, {}).items() if b[0] <= int(line) <= e[0])
+        for path, line in re.findall(r'^([^\s:]+):(\d+):\d+:\s+required from', log, re.M):
+            found.update(n for n, (b, e) in places_in(path).items() if b[0] <= int(line) <= e[0])
     return found

@@ -80,6 +80,22 @@ TEST_CASE("Lens and projection count only where allowed") {
     CHECK(trace(camera(CAMERA_ORTHOGRAPHIC), vec2(1, 0), centre, false, false).origin == vec3(1, 2, 3));
 }
 
+TEST_CASE("camera_project finds the film's point that a ray sees along, and no point behind the camera") {
+    for (const uint kind : {CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC}) {
+        CAPTURE(kind);
+        const Camera c = camera(kind);
+        for (uint i = 0; i < 100; i++) {
+            const uvec4 v = pcg4d(uvec4(i, 4, 5, 6));
+            const vec2 film(unit_float(v.x), unit_float(v.y));
+            const Ray ray = trace(c, film, centre, false, true);
+            vec2 found;
+            REQUIRE(camera_project(c, ray.origin + (0.1f + 9 * unit_float(v.z)) * ray.direction, found));
+            REQUIRE(length(found - film) < 2e-6f);
+            REQUIRE(!camera_project(c, ray.origin - 0.1f * ray.direction, found));
+        }
+    }
+}
+
 TEST_CASE("The environment's centre looks along -Z, u grows toward +X, v down from +Y") {
     CHECK(environment_uv(vec3(0, 0, -1), unturned) == vec2(0.5f, 0.5f));
     CHECK(environment_uv(vec3(1, 0, 0), unturned) == vec2(0.75f, 0.5f));

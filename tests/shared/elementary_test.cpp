@@ -154,6 +154,10 @@ TEST_CASE("Small helpers") {
     CHECK(safe_sqrt(-1e-7f) == 0);
     CHECK(safe_sqrt(4) == 2);
     CHECK(close(luminance(vec3(1, 1, 1)), 1, 1e-6));
+    CHECK(luminance(vec3(1, 0, 0)) == 0.2126f);
     CHECK(luminance(vec3(0, 1, 0)) == 0.7152f);
+    CHECK(luminance(vec3(0, 0, 1)) == 0.0722f);
     CHECK(max_component(vec3(1, 3, 2)) == 3);
+    CHECK(max_component(vec3(3, 1, 2)) == 3);
+    CHECK(max_component(vec3(1, 2, 3)) == 3);
 }
