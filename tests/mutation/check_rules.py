@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""That the rules of mutation.py write what they say, once each, and leave alone what no program computes; that the switches keep the right
-code right, and that a mutant which does not compile is found."""
+"""That the rules of mutation.py write what they say, once each, and leave alone what no program computes; that the
+switches keep the right code right, and that a mutant which does not compile is found."""
 import os
 import pathlib
 import subprocess
@@ -10,12 +10,13 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from cpp_tokens import tokenize  # noqa: E402
-from mutation import sample  # noqa: E402
+from mutants import sample  # noqa: E402
 from rules import find_sites  # noqa: E402
 from schemata import SWITCH, blamed, for_both_languages, render  # noqa: E402
 
 COMPILER = os.environ.get('CXX', 'c++')
-KNOWN = frozenset({'MOMENT_CURRENT', 'MOMENT_PREVIOUS', 'load_lights', 'load_previous_lights', 'previous_camera', 'camera'})
+KNOWN = frozenset({'MOMENT_CURRENT', 'MOMENT_PREVIOUS', 'load_lights', 'load_previous_lights', 'previous_camera',
+                   'camera'})
 
 
 def mutants(statement, **known):
@@ -40,7 +41,8 @@ class Rules(unittest.TestCase):
 
     def test_term(self):
         self.holds('return a - b + c;', 'term', 'return a + c;', 'return -(b) + c;', 'return a - b;')
-        self.holds('return a - (b + a * c);', 'term', 'return a;', 'return -((b + a * c));', 'return a - (b);', 'return a - ((a * c));')
+        self.holds('return a - (b + a * c);', 'term', 'return a;', 'return -((b + a * c));', 'return a - (b);',
+                   'return a - ((a * c));')
 
     def test_sign(self):
         self.holds('return a + b * c;', 'sign', 'return a - b * c;')
@@ -52,8 +54,8 @@ class Rules(unittest.TestCase):
 
     def test_condition(self):
         self.holds('if (a) { return b; }', 'condition', 'if (true) { return b; }', 'if (false) { return b; }')
-        self.holds('x = a && !b ? c : d;', 'condition', 'x = true ? c : d;', 'x = false ? c : d;', 'x = true && !b ? c : d;',
-                   'x = a && true ? c : d;')
+        self.holds('x = a && !b ? c : d;', 'condition', 'x = true ? c : d;', 'x = false ? c : d;',
+                   'x = true && !b ? c : d;', 'x = a && true ? c : d;')
         self.holds('return a || b;', 'condition', 'return false || b;', 'return a || false;')
         self.holds('return feature(MOTION) && a;', 'condition', 'return feature(MOTION) && true;')
 
@@ -63,7 +65,8 @@ class Rules(unittest.TestCase):
         self.holds('return constants.camera.up;', 'moment', 'return constants.previous_camera.up;', known=KNOWN)
 
     def test_extreme(self):
-        self.holds('return std::max(a, min(b, c));', 'min-max', 'return std::min(a, min(b, c));', 'return std::max(a, max(b, c));')
+        self.holds('return std::max(a, min(b, c));', 'min-max', 'return std::min(a, min(b, c));',
+                   'return std::max(a, max(b, c));')
 
     def test_index(self):
         self.holds('return a[i + 1];', 'index', 'return a[0];')
@@ -73,17 +76,19 @@ class Rules(unittest.TestCase):
     def test_constant(self):
         self.holds('return 2.0f;', 'constant', 'return 2.2f;')
         self.holds('return 1.0e-30f + 0.0f;', 'constant', 'return 1.1e-30f + 0.0f;')
-        self.holds("return 3u + 100 + 0x10u;", 'constant', 'return 4u + 100 + 0x10u;', 'return 3u + 110 + 0x10u;', 'return 3u + 100 + 17u;')
+        self.holds('return 3u + 100 + 0x10u;', 'constant', 'return 4u + 100 + 0x10u;', 'return 3u + 110 + 0x10u;',
+                   'return 3u + 100 + 17u;')
         self.holds('return PI;', 'constant', 'return PI * 1.1f;', constants=frozenset({'PI'}))
 
     def test_what_is_no_code_stays(self):
-        for statement in ('constexpr float c = 2.0f * 3.0f;', 'static_assert(sizeof(T) == 4);', 'float a[3];', '// a + b * c < d\n',
-                          'std::vector<std::array<float, 3>> list;', 'throw Error(fmt::format("{} of {}", a - 1, b[2]));', 'const T* p;',
-                          'const auto& [x, y] = pair;', 'auto f = [&, a = b](const T& t) {};', 'case 3: break;', 'say("a + b");',
-                          '#define X (a + b)', 'assert(a < b);'):
+        for statement in ('constexpr float c = 2.0f * 3.0f;', 'static_assert(sizeof(T) == 4);', 'float a[3];',
+                          '// a + b * c < d\n', 'std::vector<std::array<float, 3>> list;', 'const T* p;',
+                          'throw Error(fmt::format("{} of {}", a - 1, b[2]));', 'const auto& [x, y] = pair;',
+                          'auto f = [&, a = b](const T& t) {};', 'case 3: break;', 'say("a + b");', 'assert(a < b);',
+                          '#define X (a + b)'):
             self.assertEqual(mutants(statement), set(), statement)
-        for declaration in ('struct A { float x = 2.0f; };', 'constexpr float f(float a) { return a * 2.0f; }', 'CONST float A = 2.0f;',
-                            'enum { A = 1 };', 'namespace a { int b = 1 + 1; }'):
+        for declaration in ('struct A { float x = 2.0f; };', 'constexpr float f(float a) { return a * 2.0f; }',
+                            'CONST float A = 2.0f;', 'enum { A = 1 };', 'namespace a { int b = 1 + 1; }'):
             self.assertEqual(find_sites(declaration), [], declaration)
 
     def test_only_the_code_of_a_mutant_macro(self):
@@ -91,15 +96,16 @@ class Rules(unittest.TestCase):
         self.holds('return MUTANT(NAME, a + b, a * b);', 'factor')
 
     def test_lines(self):
-        self.assertEqual([(t.text, t.line) for t in tokenize('a /* \n */ b\n#if c \\\n d\ne')], [('a', 1), ('b', 2), ('e', 5)])
+        tokens = tokenize('a /* \n */ b\n#if c \\\n d\ne')
+        self.assertEqual([(t.text, t.line) for t in tokens], [('a', 1), ('b', 2), ('e', 5)])
 
     def test_samples_repeat_and_do_not_overlap(self):
         text = 'FN float f() {\n' + 'return a + b * c - d < e ? v.x : -v.y * 2.0f;\n' * 40 + '}\n'
         sites = {'a.h': (text, find_sites(text)), 'b.h': ('', [])}
-        one, two = sample(sites, 30, 'seed', []), sample(sites, 30, 'seed', [])
+        one, two = sample(sites, 30, 'seed'), sample(sites, 30, 'seed')
         self.assertEqual(one, two)
         self.assertEqual(len(one), 30)
-        self.assertNotEqual(one, sample(sites, 30, 'another', []))
+        self.assertNotEqual(one, sample(sites, 30, 'another'))
 
 
 CODE = '''#include <cstdio>
@@ -128,11 +134,13 @@ class Switches(unittest.TestCase):
         rendered, places = render(CODE, chosen)
         source = self.folder / 'code.cpp'
         source.write_text('#include "mutation_switch.h"\n' + for_both_languages('no C++', rendered))
-        done = subprocess.run([COMPILER, '-std=c++20', '-w', str(source), '-o', str(self.folder / 'code')], capture_output=True, text=True)
+        command = [COMPILER, '-std=c++20', '-w', str(source), '-o', str(self.folder / 'code')]
+        done = subprocess.run(command, capture_output=True, text=True)
         return done, {str(source): places}
 
     def run_code(self, **environment):
-        return subprocess.run([str(self.folder / 'code')], env={k: str(v) for k, v in environment.items()}, capture_output=True, text=True).stdout
+        variables = {k: str(v) for k, v in environment.items()}
+        return subprocess.run([str(self.folder / 'code')], env=variables, capture_output=True, text=True).stdout
 
     def test_each_switch_is_its_mutant_alone(self):
         sites = [s for s in find_sites(CODE) if s.line < 7]

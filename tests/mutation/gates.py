@@ -1,4 +1,5 @@
-"""Gates: the tests that CTest knows, each a process of its own: what they reach, their time, and which of them fails."""
+"""Gates: the tests that CTest knows, each a process of its own. What they reach, their time, and which one fails."""
+import concurrent.futures
 import json
 import os
 import pathlib
@@ -7,7 +8,9 @@ import signal
 import subprocess
 import tempfile
 import time
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+
+from errors import say
 
 SKIPPED = 77
 
@@ -55,7 +58,7 @@ def run(gate, limit, **variables):
 
 
 def measure(gate, device):
-    """Runs the gate without a mutant and notes what it reaches. A gate that reports a skipped part still judges the rest."""
+    """Runs the gate without a mutant and notes what it reaches. One that skips a part still judges the rest."""
     folder = tempfile.mkdtemp(prefix='mutation')
     try:
         gate.outcome, gate.seconds = run(gate, 1200, DIPTYCH_MUTATION_REACHED=folder, **without_device(device))
@@ -79,10 +82,33 @@ def judge(number, gates, device, budget):
     for count, gate in enumerate(reaching, 1):
         limit = 20 + 10 * gate.seconds  # far beyond the time of the right code, on a machine that others use too
         outcome, _ = run(gate, limit, DIPTYCH_MUTATION=number, **without_device(device))
-        if outcome == 'fail' and gate.serial and run(gate, limit, DIPTYCH_MUTATION=0, **without_device(device))[0] == 'fail':
-            continue  # the clock failed, not the mutant
+        if outcome == 'fail' and gate.serial:
+            if run(gate, limit, DIPTYCH_MUTATION=0, **without_device(device))[0] == 'fail':
+                continue  # the clock failed, not the mutant
         if outcome in ('fail', 'timeout'):
             return ('killed' if outcome == 'fail' else 'timeout'), gate.name, time.monotonic() - start, count
         if time.monotonic() - start > budget and count < len(reaching):
             return 'out of budget', '', time.monotonic() - start, count
     return ('survived' if reaching else 'not reached'), '', time.monotonic() - start, len(reaching)
+
+
+def measured_gates(build, programs, device, jobs, cache):
+    """The gates of these programs, measured once a program: `cache` keeps what was found, with the program's date."""
+    gates = read_gates(build, programs)
+
+    def date(name):
+        return (build / f'tests/tests_{name.split(":")[0]}').stat().st_mtime
+
+    known = json.loads(cache.read_text()) if cache.exists() else []
+    known = {entry['name']: entry for entry in known}
+    for gate in gates:
+        entry = known.get(gate.name)
+        if entry and entry['date'] == date(gate.name):
+            gate.seconds, gate.outcome, gate.reached = (entry[k] for k in ('seconds', 'outcome', 'reached'))
+    new = [g for g in gates if g.outcome == 'unknown']
+    say(f'{len(gates)} gates, {len(new)} of them to be measured without a mutant')
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(lambda g: measure(g, device), new))
+    kept = {g.name: {**asdict(g), 'date': date(g.name)} for g in gates}
+    cache.write_text(json.dumps([*(known | kept).values()]))
+    return gates

@@ -103,7 +103,7 @@ def render(text, mutants):
 
 
 def for_both_languages(original, rendered):
-    """Shaders read the right code from the same file. Compilers count the rewritten one's lines as if it stood alone."""
+    """Shaders read the right code from the same file. Compilers count the lines of the rewritten code alone."""
     return f'#if defined(__cplusplus)\n#line 1\n{rendered}\n#else\n{original}\n#endif\n'
 
 
