@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import threading
 import time
 from dataclasses import asdict, dataclass, field
 
@@ -21,8 +22,8 @@ class Gate:
     command: list
     folder: str
     serial: bool              # holds a clock or threads to something
-    seconds: float = 0
-    outcome: str = 'unknown'  # without a mutant: pass, skip, fail
+    seconds: float = 0        # of processors
+    outcome: str = 'unknown'  # without a mutant: pass, skip, fail, timeout
     reached: list = field(default_factory=list)
 
 
@@ -41,74 +42,81 @@ def read_gates(build, programs):
     return gates
 
 
-def run(gate, limit, **variables):
-    """(outcome, seconds): pass, fail, skip or timeout. Out of time, it is ended with all processes that it started."""
-    environment = {**os.environ, **{k: str(v) for k, v in variables.items() if v is not None}}
-    start = time.monotonic()
-    process = subprocess.Popen(gate.command, cwd=gate.folder, env=environment, stdin=subprocess.DEVNULL,
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-    try:
-        code = process.wait(limit)
-        outcome = 'pass' if code == 0 else 'skip' if code == SKIPPED else 'fail'
-    except subprocess.TimeoutExpired:
-        outcome = 'timeout'
-        os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-    return outcome, time.monotonic() - start
+def run(gate, limit, device, **variables):
+    """(outcome, seconds): pass, fail, skip or timeout. `limit` and seconds are processors' time, since others may use
+    the machine too; a process that waits for ever is ended after ten times as long."""
+    # A fault of the shared source is in both languages, so a comparison with an unmutated shader must not find it.
+    if not device:
+        variables |= {'VK_DRIVER_FILES': '/dev/null', 'VK_ICD_FILENAMES': '/dev/null'}
+    limited = ['bash', '-c', 'ulimit -c 0 -t "$0"; exec "$@"', str(int(limit) + 1), *gate.command]
+    silent = subprocess.DEVNULL
+    process = subprocess.Popen(limited, cwd=gate.folder, env={**os.environ, **{k: str(v) for k, v in variables.items()}},
+                               stdin=silent, stdout=silent, stderr=silent, start_new_session=True)
+    end, pause = time.monotonic() + 60 + 10 * limit, 0.005
+    while True:
+        ended, status, usage = os.wait4(process.pid, os.WNOHANG if time.monotonic() < end else 0)
+        if ended:
+            break
+        time.sleep(pause)
+        pause = min(2 * pause, 0.1)
+        if time.monotonic() >= end:
+            os.killpg(process.pid, signal.SIGKILL)
+    process.returncode = code = os.waitstatus_to_exitcode(status)
+    timeout = code in (-signal.SIGXCPU, -signal.SIGKILL)
+    outcome = 'timeout' if timeout else 'pass' if code == 0 else 'skip' if code == SKIPPED else 'fail'
+    return outcome, usage.ru_utime + usage.ru_stime
 
 
 def measure(gate, device):
     """Runs the gate without a mutant and notes what it reaches. One that skips a part still judges the rest."""
     folder = tempfile.mkdtemp(prefix='mutation')
     try:
-        gate.outcome, gate.seconds = run(gate, 1200, DIPTYCH_MUTATION_REACHED=folder, **without_device(device))
+        gate.outcome, gate.seconds = run(gate, 600, device, DIPTYCH_MUTATION_REACHED=folder)
         gate.reached = sorted({int(n) for file in pathlib.Path(folder).iterdir() for n in file.read_text().split()})
     finally:
         shutil.rmtree(folder)
-    return gate
-
-
-def without_device(device):
-    """A fault of the shared source is in both languages, so a comparison with an unmutated shader must not find it."""
-    return {} if device else {'VK_DRIVER_FILES': '/dev/null', 'VK_ICD_FILENAMES': '/dev/null'}
 
 
 def judge(number, gates, device, budget):
     """Runs the gates that reach this mutant, fast ones first, until one fails: (outcome, gate, seconds, gates run).
     `budget`: seconds after which no further gate begins."""
-    start = time.monotonic()
     reaching = [g for g in gates if number in g.reached and g.outcome in ('pass', 'skip')]
     reaching.sort(key=lambda g: g.seconds)
+    spent = 0
     for count, gate in enumerate(reaching, 1):
-        limit = 20 + 10 * gate.seconds  # far beyond the time of the right code, on a machine that others use too
-        outcome, _ = run(gate, limit, DIPTYCH_MUTATION=number, **without_device(device))
-        if outcome == 'fail' and gate.serial:
-            if run(gate, limit, DIPTYCH_MUTATION=0, **without_device(device))[0] == 'fail':
-                continue  # the clock failed, not the mutant
+        limit = 5 + 10 * gate.seconds  # far beyond the time of the right code
+        outcome, seconds = run(gate, limit, device, DIPTYCH_MUTATION=number)
+        spent += seconds
+        if outcome == 'fail' and gate.serial and run(gate, limit, device, DIPTYCH_MUTATION=0)[0] == 'fail':
+            continue  # the clock failed, not the mutant
         if outcome in ('fail', 'timeout'):
-            return ('killed' if outcome == 'fail' else 'timeout'), gate.name, time.monotonic() - start, count
-        if time.monotonic() - start > budget and count < len(reaching):
-            return 'out of budget', '', time.monotonic() - start, count
-    return ('survived' if reaching else 'not reached'), '', time.monotonic() - start, len(reaching)
+            return ('killed' if outcome == 'fail' else 'timeout'), gate.name, spent, count
+        if spent > budget and count < len(reaching):
+            return 'out of budget', '', spent, count
+    return ('survived' if reaching else 'not reached'), '', spent, len(reaching)
 
 
 def measured_gates(build, programs, device, jobs, cache):
     """The gates of these programs, measured once a program: `cache` keeps what was found, with the program's date."""
     gates = read_gates(build, programs)
-
-    def date(name):
-        return (build / f'tests/tests_{name.split(":")[0]}').stat().st_mtime
-
-    known = json.loads(cache.read_text()) if cache.exists() else []
-    known = {entry['name']: entry for entry in known}
+    dates = {name: (build / f'tests/tests_{name}').stat().st_mtime for name in {g.name.split(':')[0] for g in gates}}
+    known = {}
+    if cache.exists():
+        known = {entry['name']: entry for entry in map(json.loads, cache.read_text().splitlines())}
     for gate in gates:
         entry = known.get(gate.name)
-        if entry and entry['date'] == date(gate.name):
+        if entry and entry['date'] == dates[gate.name.split(':')[0]]:
             gate.seconds, gate.outcome, gate.reached = (entry[k] for k in ('seconds', 'outcome', 'reached'))
     new = [g for g in gates if g.outcome == 'unknown']
     say(f'{len(gates)} gates, {len(new)} of them to be measured without a mutant')
+    lock = threading.Lock()
+
+    def measure_one(gate):
+        measure(gate, device)
+        entry = {**asdict(gate), 'date': dates[gate.name.split(':')[0]]}
+        with lock, cache.open('a') as file:
+            file.write(json.dumps(entry) + '\n')
+
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(lambda g: measure(g, device), new))
-    kept = {g.name: {**asdict(g), 'date': date(g.name)} for g in gates}
-    cache.write_text(json.dumps([*(known | kept).values()]))
+        list(pool.map(measure_one, new))
     return gates

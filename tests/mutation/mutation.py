@@ -7,14 +7,17 @@ environment sets (schemata.py), and runs for each mutant the gates that reach it
 where the tool could not work.
 
 A mutant that does not compile is left out. One that no gate reaches has survived. equivalent.txt lists mutants that
-compute the same, with the reason; they are not counted. A gate that runs past ten times its time and 20 s counts as a
-kill, and is reported apart.
+compute the same, with the reason; they are not counted. A gate that runs past ten times its time and 5 s counts as a
+kill, and is reported apart. Seconds are those of processors.
 """
 import argparse
 import concurrent.futures
 import json
 import pathlib
+import random
 import sys
+import threading
+import time
 
 from errors import say
 from gates import judge, measured_gates
@@ -33,26 +36,38 @@ def read_arguments():
     parser.add_argument('--file', action='append', default=[], metavar='TEXT', help='only paths that contain TEXT')
     parser.add_argument('--only', metavar='N,...', help='judge these numbers alone')
     parser.add_argument('--survivors', action='store_true', help='judge only what was not killed before')
+    parser.add_argument('--resume', action='store_true', help='judge only what an interrupted run left')
+    parser.add_argument('--minutes', type=float, default=float('inf'), help='after which no further mutant begins')
     parser.add_argument('--programs', metavar='NAME,...', help='tests_NAME alone may kill')
-    parser.add_argument('--budget', type=float, default=900, help='seconds of a mutant, the last gate not counted')
+    parser.add_argument('--budget', type=float, default=900, help='seconds a mutant, the last gate not counted')
     parser.add_argument('-j', '--jobs', type=int, default=2)
     parser.add_argument('-B', '--folder', type=pathlib.Path, default=ROOT / 'build/mutation')
     parser.add_argument('--list', action='store_true', help='print the sampled mutants and stop')
     return parser.parse_args()
 
 
-def take_over(mutants, path):
-    """Outcomes of the run before, for those that are not judged anew."""
-    before = {e['key']: e for e in json.loads(path.read_text())['mutants']} if path.exists() else {}
+def take_over(mutants, outcomes):
+    """What runs before have found out."""
+    lines = outcomes.read_text().splitlines() if outcomes.exists() else []
+    before = {key: found for key, *found in map(json.loads, lines)}
     for m in mutants:
         if m.key in before and not m.outcome:
-            m.outcome, m.gate, m.seconds = (before[m.key][k] for k in ('outcome', 'gate', 'seconds'))
+            m.outcome, m.gate, m.seconds = before[m.key]
 
 
-def judge_all(mutants, gates, device, given):
+def judge_all(mutants, gates, device, given, outcomes):
+    """Judges them in a random order, so that those of a run that ends early are a fair sample."""
+    lock, end = threading.Lock(), time.monotonic() + 60 * given.minutes
+    mutants = sorted(mutants, key=lambda m: m.number)
+    random.Random(given.seed).shuffle(mutants)
+
     def judge_one(m):
+        if time.monotonic() > end:
+            return
         m.outcome, m.gate, m.seconds, count = judge(m.number, gates, device, given.budget)
-        say(f'{m.number} {m.place} {m.site.rule}: {m.outcome} {m.gate} ({count} gates, {m.seconds:.0f} s)')
+        with lock, outcomes.open('a') as file:
+            file.write(json.dumps([m.key, m.outcome, m.gate, round(m.seconds, 2)]) + '\n')
+            say(f'{m.number} {m.place} {m.site.rule}: {m.outcome} {m.gate} ({count} gates, {m.seconds:.1f} s)')
 
     with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
         list(pool.map(judge_one, mutants))
@@ -76,14 +91,16 @@ def main():
     goals = sorted({f'tests/tests_{name}' for t in targets for name in programs[t]})
     build(ROOT, folder, texts, mutants, goals, given.jobs)
 
-    results, reasons = folder / 'results.json', read_equivalent(ROOT / 'tests/mutation/equivalent.txt')
+    outcomes, reasons = folder / 'outcomes.jsonl', read_equivalent(ROOT / 'tests/mutation/equivalent.txt')
     numbers = {int(n) for n in given.only.split(',')} if given.only else None
-    if given.survivors or numbers or given.target:
-        take_over(mutants, results)
+    if given.survivors or given.resume or numbers:
+        take_over(mutants, outcomes)
+    else:
+        outcomes.unlink(missing_ok=True)
     gates_hold = True
     for target in targets:
         device = TARGETS[target].device
-        gates = measured_gates(folder / 'build', programs[target], device, given.jobs, folder / f'gates-{target}.json')
+        gates = measured_gates(folder / 'build', programs[target], device, given.jobs, folder / f'gates-{target}.jsonl')
         broken = [g.name for g in gates if g.outcome not in ('pass', 'skip')]
         if broken:
             say(f'{target}: these fail without a mutant and prove nothing: {broken}')
@@ -92,9 +109,11 @@ def main():
         if numbers:
             queue = [m for m in queue if m.number in numbers]
         elif given.survivors:
-            queue = [m for m in queue if not m.killed and m.key not in reasons]
-        judge_all(queue, gates, device, given)
-    return 0 if report(mutants, reasons, given.seed, results) and gates_hold else 1
+            queue = [m for m in queue if m.outcome and not m.killed and m.key not in reasons]
+        elif given.resume:
+            queue = [m for m in queue if not m.outcome]
+        judge_all(queue, gates, device, given, outcomes)
+    return 0 if report(mutants, reasons, given.seed, folder / 'results.json') and gates_hold else 1
 
 
 if __name__ == '__main__':
