@@ -117,7 +117,8 @@ FN vec3 material_emission(IN(Material) material, IN(MeshPoint) p) {
     if ((material.flags & MATERIAL_UNLIT) != 0u) {
         return xyz(base_color(material, p));
     }
-    return material.emission * xyz(slot_value(material.emission_slot, p));
+    vec3 emission = xyz(slot_value(material.emission_slot, p));
+    return material.emission * MUTANT(EMISSION_OF_RED, emission, vec3(emission.x, emission.x, emission.x));
 }
 
 /// The interpolated normal, on the front side; the geometric one where the mesh has none.
@@ -149,10 +150,12 @@ FN vec3 mapped_normal(IN(Surface) s, IN(Instance) instance, IN(Material) materia
         return normal;
     }
     vec3 tangent = normalize_or(across, normal);
-    float handedness = (MUTANT(HANDEDNESS_OF_A_CORNER, t.w, a.w) < 0.0f) != (instance.mirrored != 0u) ? -1.0f : 1.0f;
+    bool mirrored = MUTANT(HANDEDNESS_NOT_MIRRORED, instance.mirrored != 0u, false);
+    float handedness = (MUTANT(HANDEDNESS_OF_A_CORNER, t.w, a.w) < 0.0f) != mirrored ? -1.0f : 1.0f;
     vec3 bitangent = cross(normal, tangent) * handedness;
     vec3 m = xyz(slot_value(material.normal_slot, s.mesh)) * 2.0f - vec3(1.0f, 1.0f, 1.0f);
-    vec3 n = m.x * material.normal_scale * tangent + m.y * material.normal_scale * bitangent + m.z * normal;
+    vec2 scaled = material.normal_scale * vec2(m.x, m.y);
+    vec3 n = scaled.x * tangent + MUTANT(NORMAL_SCALE_OF_X, scaled.y, m.y) * bitangent + m.z * normal;
     return normalize_or(n, normal);
 }
 
@@ -161,10 +164,12 @@ FN SurfaceBsdf load_bsdf(IN(Surface) s, IN(Instance) instance, IN(Material) mate
     SurfaceBsdf bsdf;
     vec3 base = xyz(base_color(material, s.mesh));
     vec4 metallic_roughness = slot_value(material.metallic_roughness_slot, s.mesh);
-    float specular = material.specular * slot_value(material.specular_slot, s.mesh).w;
+    vec4 specular_factor = slot_value(material.specular_slot, s.mesh);
+    float specular = material.specular * MUTANT(SPECULAR_OF_RED, specular_factor.w, specular_factor.x);
     vec3 specular_color = material.specular_color * xyz(slot_value(material.specular_color_slot, s.mesh));
     bsdf.parameters =
-        bsdf_parameters(base, material.metallic * metallic_roughness.z, material.roughness * metallic_roughness.y,
+        bsdf_parameters(base, material.metallic * MUTANT(METALLIC_OF_RED, metallic_roughness.z, metallic_roughness.x),
+                        material.roughness * MUTANT(ROUGHNESS_OF_BLUE, metallic_roughness.y, metallic_roughness.z),
                         material.f0, specular, specular_color, constants.brdf);
     vec3 smooth_normal = interpolated_normal(s, instance);
     vec3 bumped = smooth_normal;

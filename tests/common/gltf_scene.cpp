@@ -35,7 +35,12 @@ const char* const one_texel =
     "data:image/"
     "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGM4kWLkAAAE9QGfhM72PAAAAABJRU5ErkJggg==";
 
+/// A triangle of the material, for which there are seven textures by the names t0 to t6.
 Scene load_material(const std::string& material, const std::string& samplers = "[{}]") {
+    std::string textures;
+    for (int i = 0; i < 7; ++i) {
+        textures += std::string(i == 0 ? "" : ",") + R"({"source":0,"sampler":0,"name":"t)" + std::to_string(i) + "\"}";
+    }
     GltfBuilder builder;
     const std::string points = std::to_string(builder.triangle());
     const std::string uvs = std::to_string(builder.floats({0, 0, 1, 0, 0, 1}, "VEC2", 3));
@@ -44,7 +49,7 @@ Scene load_material(const std::string& material, const std::string& samplers = "
                      R"("POSITION":)" +
                      points + R"(,"TEXCOORD_0":)" + uvs + R"(,"TEXCOORD_1":)" + uvs +
                      R"(},"material":0}]}],"materials":[)" + material + R"(],"samplers":)" + samplers +
-                     R"(,"textures":[{"source":0,"sampler":0}],"images":[{"uri":")" + one_texel + R"("}])"));
+                     R"(,"textures":[)" + textures + R"(],"images":[{"uri":")" + one_texel + R"("}])"));
 }
 
 }  // namespace
@@ -152,6 +157,26 @@ TEST_CASE("material factors and extensions arrive", "[gltf]") {
     CHECK(m.base_color_texture.texture == none);
     REQUIRE(scene.images.size() == 1);
     CHECK(scene.images[0].rgba == std::vector<std::uint8_t>{200, 100, 50, 64});
+}
+
+TEST_CASE("every slot of a material reads its own texture, and none reads the occlusion", "[gltf]") {
+    const Scene scene = load_material(
+        R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":6},"metallicRoughnessTexture":{"index":5}},)"
+        R"("normalTexture":{"index":4},"emissiveTexture":{"index":3,"texCoord":1},"emissiveFactor":[1,1,1],)"
+        R"("occlusionTexture":{"index":0,"strength":0.5},"extensions":{"KHR_materials_specular":{)"
+        R"("specularTexture":{"index":2},"specularColorTexture":{"index":1}}}})");
+    const Material& m = scene.materials.at(0);
+    const auto read_by = [&](const TextureSlot& slot) {
+        return scene.textures.at(static_cast<std::size_t>(slot.texture)).name;
+    };
+    CHECK(read_by(m.base_color_texture) == "t6");
+    CHECK(read_by(m.metallic_roughness_texture) == "t5");
+    CHECK(read_by(m.normal_texture) == "t4");
+    CHECK(read_by(m.emission_texture) == "t3");
+    CHECK(read_by(m.specular_texture) == "t2");
+    CHECK(read_by(m.specular_color_texture) == "t1");
+    CHECK(m.emission_texture.uv_set == 1);
+    CHECK(scene.textures.size() == 6);
 }
 
 TEST_CASE("a primitive without a material gets the default one", "[gltf]") {
