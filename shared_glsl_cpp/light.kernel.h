@@ -127,7 +127,7 @@ FN vec3 emitter_radiance(IN(EmissiveTriangle) light, vec2 barycentrics) {
     vec3 radiance = (material.flags & MATERIAL_UNLIT) != 0u ? xyz(base_color(material, p))
                                                             : light.radiance * xyz(slot_value(material.emission_slot, p));
     if (feature(FEATURE_ALPHA) && (material.flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u) {
-        radiance = radiance * opacity(material, base_color(material, p).w);
+        radiance = radiance * MUTANT(EMITTER_UNCOVERED, opacity(material, base_color(material, p).w), 1.0f);
     }
     return radiance;
 }

@@ -28,7 +28,7 @@ FN FirstHit no_first_hit() {
 
 /// Russian roulette starts at this vertex and never kills with a probability below 5 %.
 FN float survival_probability(vec3 throughput, uint depth) {
-    return depth < 3u ? 1.0f : min(max_component(throughput), 0.95f);
+    return depth < 3u ? 1.0f : min(MUTANT(ROULETTE_BY_RED, max_component(throughput), throughput.x), 0.95f);
 }
 
 /// Names one ray for the hash that decides stochastic alpha. Never NONE.
