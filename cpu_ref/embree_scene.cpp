@@ -246,7 +246,8 @@ void EmbreeScene::place_emitters(const PackedScene& packed) {
 
 void EmbreeScene::move_to(const PackedScene& moment) {
     require_instances(moment);
-    if (moment.keeps_previous) {
+    if (moment.keeps_previous &&
+        MUTANT(EMBREE_PREVIOUS_STAYS, true, moment.revisions.instances != root_.revision)) {
         std::swap(root_, previous_);
     }
     place_all(moment, root_);

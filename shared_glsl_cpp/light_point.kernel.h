@@ -45,14 +45,14 @@ FN vec3 uv_direction(vec2 uv) {
 
 /// The lights as they are, or as they were at the moment that reuse looks back to.
 FN EmissiveTriangle emissive_triangle_at(uint moment, uint id) {
-    if (feature(FEATURE_MOTION) && moment == MOMENT_PREVIOUS) {
+    if (feature(FEATURE_MOTION) && moment == MUTANT(PREVIOUS_EMITTERS_CURRENT, MOMENT_PREVIOUS, NONE)) {
         return load_previous_emissive_triangles(id);
     }
     return load_emissive_triangles(id);
 }
 
 FN PunctualLight punctual_light_at(uint moment, uint index) {
-    if (feature(FEATURE_MOTION) && moment == MOMENT_PREVIOUS) {
+    if (feature(FEATURE_MOTION) && moment == MUTANT(PREVIOUS_PUNCTUAL_CURRENT, MOMENT_PREVIOUS, NONE)) {
         return load_previous_punctual_lights(index);
     }
     return load_punctual_lights(index);
@@ -80,7 +80,7 @@ FN SeenLight see_emitter(IN(EmissiveTriangle) light, vec2 barycentrics, vec3 ref
     s.direction = to_light * inverse;
     s.measure = light.double_area * abs(facing) * inverse * inverse * inverse;
     s.radiance = emitter_radiance(light, barycentrics);
-    s.by_chance = !may_be_passed(light);
+    s.by_chance = MUTANT(PASSABLE_BY_CHANCE, !may_be_passed(light), true);
     s.end = emitter_end(light, point, facing < 0.0f);
     return s;
 }

@@ -284,7 +284,8 @@ void PathRenderer::move_to(const PackedScene& moment) {
                 *gpu_, std::clamp<std::uint64_t>(moving_bytes(moment), 4096, std::uint64_t{64} << 20U));
         }
         upload_moment(*mover_, moment, scene_);
-        if (moment.keeps_previous) {
+        if (moment.keeps_previous &&
+            MUTANT(PREVIOUS_STRUCTURE_STAYS, true, moment.revisions.instances != top_.revision)) {
             std::swap(top_, previous_top_);
         }
         move_top_level(*gpu_, moment, bottom_, top_);

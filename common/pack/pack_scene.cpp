@@ -73,7 +73,7 @@ void keep_previous(PackedScene& packed) {
         return;
     }
     const auto copy = [](const auto& now, std::uint64_t revision, auto& before, std::uint64_t& revision_before) {
-        if (revision == 0 || revision != revision_before) {
+        if (MUTANT(PREVIOUS_ARRAYS_STAY, revision == 0 || revision != revision_before, before.empty())) {
             before = now;
             revision_before = revision;
         }

@@ -1,5 +1,5 @@
 // The chains of tests/restir on the device.
-#include "../restir/chain_cases.h"
+#include "../restir/moving_cases.h"
 #include "loader.h"
 #include "vulkan_device.h"
 #include "vulkan_renderer.h"
@@ -14,6 +14,11 @@ std::unique_ptr<Renderer> on_vulkan(const PackedScene& packed) {
 }
 
 }  // namespace
+
+TEST_CASE("restir is unbiased where an occluder moves and then stops, on the device") {
+    NEED_VULKAN();
+    check_frames(coming_and_going_case(), coming_and_going_frames, 5, {}, on_vulkan);
+}
 
 TEST_CASE("Long chains of restir stay unbiased on the device", "[nightly]") {
     NEED_VULKAN();
