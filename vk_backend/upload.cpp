@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "commands.h"
+#include "compat.h"
 
 namespace diptych {
 
@@ -19,7 +20,8 @@ void Uploader::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
         }
         const std::uint64_t count = std::min<std::uint64_t>(bytes.size() - done, staging_.size - used_);
         std::memcpy(static_cast<std::byte*>(staging_.mapped) + used_, bytes.data() + done, count);
-        copies_.push_back({*buffer.handle, {.srcOffset = used_, .dstOffset = done, .size = count}});
+        const std::uint64_t start = MUTANT(UPLOAD_AT_START, done, 0);
+        copies_.push_back({*buffer.handle, {.srcOffset = used_, .dstOffset = start, .size = count}});
         used_ += count;
         done += count;
     }
