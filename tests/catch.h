@@ -17,12 +17,13 @@ inline auto Contains(const std::string& text) {
 
 namespace diptych::tests {
 
-/// Prints "SKIPPED: reason". The program then ends with code 77, which CTest counts as skipped, unless a check failed.
+/// Prints "SKIPPED: reason". A program of which every test case was skipped ends with code 77, which CTest counts as
+/// skipped (skipping.h).
 void report_skipped(const std::string& reason);
 
 }  // namespace diptych::tests
 
-/// Leaves the test case, whose needs this machine does not meet.
+/// Leaves the test case, whose needs this machine does not meet. Stands before every assertion: skipped means not run.
 #define SKIP_TEST(reason)                                                                                              \
     do {                                                                                                               \
         diptych::tests::report_skipped(reason);                                                                        \

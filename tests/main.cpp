@@ -2,13 +2,39 @@
 #include "catch.h"
 #include "skipping.h"
 
+#include <cstdio>
+
+#if DIPTYCH_CATCH_VERSION >= 3
+using Listener = Catch::EventListenerBase;
+#else
+using Listener = Catch::TestEventListenerBase;
+#endif
+
 namespace {
 
-constexpr int skipped_exit_code = 77;
+/// Tells TestRun of what the runner does.
+class Watch : public Listener {
+public:
+    using Listener::Listener;
+
+    void testCaseStarting(const Catch::TestCaseInfo& info) override {
+        Listener::testCaseStarting(info);
+        diptych::tests::test_run().begin(info.name);
+    }
+
+    void testCaseEnded(const Catch::TestCaseStats& stats) override {
+        Listener::testCaseEnded(stats);
+        const std::string fault = diptych::tests::test_run().end(stats.totals.assertions.total());
+        if (!fault.empty()) {
+            std::printf("FAILED: %s\n", fault.c_str());
+        }
+    }
+};
 
 }  // namespace
 
+CATCH_REGISTER_LISTENER(Watch)
+
 int main(int argc, char** argv) {
-    const int result = Catch::Session().run(argc, argv);
-    return result == 0 && diptych::tests::any_skipped() ? skipped_exit_code : result;
+    return diptych::tests::test_run().exit_code(Catch::Session().run(argc, argv));
 }

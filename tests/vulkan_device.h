@@ -8,11 +8,11 @@ namespace diptych::tests {
 /// Whether a usable Vulkan device exists.
 bool has_vulkan();
 
-/// Whether the validation layer is installed; says SKIPPED once where it is not. Every test of a device is one of
-/// validation too.
+/// Whether the validation layer is installed. Where it is, every test of a device is one of validation too; where it is
+/// not, only tests of the messages themselves are skipped.
 bool has_validation_layer();
 
-/// Fails on any validation message since the last call.
+/// Fails on any validation message since the last call. Says LEFT OUT, and asserts nothing, where there is no layer.
 void check_no_validation_messages();
 
 }  // namespace diptych::tests
@@ -22,5 +22,14 @@ void check_no_validation_messages();
     do {                                                                                                               \
         if (!diptych::tests::has_vulkan()) {                                                                           \
             SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 or later brings one");              \
+        }                                                                                                              \
+    } while (false)
+
+/// Leaves the test case where there is no device, or no validation layer for it.
+#define NEED_VALIDATION()                                                                                              \
+    do {                                                                                                               \
+        NEED_VULKAN();                                                                                                 \
+        if (!diptych::tests::has_validation_layer()) {                                                                 \
+            SKIP_TEST("the Vulkan validation layer is not installed (package vulkan-validationlayers)");               \
         }                                                                                                              \
     } while (false)

@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "catch.h"
+#include "skipping.h"
 
 namespace diptych::tests {
 
@@ -125,6 +125,36 @@ ProcessResult Process::finish() {
 ProcessResult run_diptych(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment) {
     return Process(folder, arguments, environment).finish();
+}
+
+namespace {
+
+ProcessResult probe_vulkan(const char* validation) {
+    const TemporaryFolder folder;
+    return run_diptych(folder,
+                       {"render", write_bare_triangle(folder), "-o", folder.file("probe.exr"), "--spp", "1", "--size",
+                        "4", "--backend", "vulkan"},
+                       {std::string("DIPTYCH_VALIDATION=") + validation});
+}
+
+}  // namespace
+
+bool program_has_vulkan() {
+    static const bool has = probe_vulkan("0").exit_code == 0;
+    return has;
+}
+
+bool program_has_validation() {
+    static const bool has = program_has_vulkan() && probe_vulkan("1").err.find("is not installed") == std::string::npos;
+    return has;
+}
+
+std::vector<std::string> validation_environment() {
+    if (!program_has_validation()) {
+        report_left_out("what the Vulkan validation layer would say of the program");
+        return {};
+    }
+    return {"DIPTYCH_VALIDATION=1"};
 }
 
 std::string generate_scene(const TemporaryFolder& folder, const std::string& name) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "catch.h"
+
 namespace diptych::tests {
 
 struct ProcessResult {
@@ -54,6 +56,13 @@ private:
     bool reaped_ = false;
 };
 
+/// Whether the program renders on a Vulkan device here.
+bool program_has_vulkan();
+/// Whether it does so under the validation layer.
+bool program_has_validation();
+/// Puts the program under the validation layer where that is installed; says LEFT OUT where it is not.
+std::vector<std::string> validation_environment();
+
 ProcessResult run_diptych(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment = {});
 
@@ -74,3 +83,11 @@ double seconds_taken(double seconds, const std::function<ProcessResult()>& run);
 void check_refusal(const ProcessResult& result, int exit_code, const std::vector<std::string>& parts);
 
 }  // namespace diptych::tests
+
+/// Leaves the test case where the program has no device.
+#define NEED_PROGRAM_WITH_VULKAN()                                                                                     \
+    do {                                                                                                               \
+        if (!diptych::tests::program_has_vulkan()) {                                                                   \
+            SKIP_TEST("no Vulkan device with ray tracing, or built without Vulkan");                                   \
+        }                                                                                                              \
+    } while (false)

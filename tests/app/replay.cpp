@@ -51,13 +51,11 @@ TEST_CASE("replay prints a path vertex by vertex, on the CPU alone", "[app]") {
 }
 
 TEST_CASE("replay sets both backends side by side", "[app]") {
+    NEED_PROGRAM_WITH_VULKAN();
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const ProcessResult result =
         run_diptych(folder, {"replay", scene, "--pixel", "16,20", "--size", "32", "--max-depth", "3"});
-    if (result.exit_code == 3 || contains(result.err, "DIPTYCH_VULKAN=OFF")) {
-        SKIP_TEST("no Vulkan device with ray tracing");
-    }
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     CHECK(contains(result.out, "cpu: "));
@@ -86,15 +84,13 @@ TEST_CASE("replay refuses what it cannot replay", "[app]") {
 }
 
 TEST_CASE("verify --paired compares panels path by path", "[app]") {
+    NEED_PROGRAM_WITH_VULKAN();
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const std::vector<std::string> paired = {"verify", scene,    "--paired", "--size",
                                              "32",     "--spp",  "4",        "--integrators",
                                              "path",   "--json", "-o",       folder.path().string()};
     const ProcessResult result = run_diptych(folder, paired);
-    if (result.exit_code == 3 || contains(result.err, "DIPTYCH_VULKAN=OFF")) {
-        SKIP_TEST("no Vulkan device with ray tracing");
-    }
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     const auto json = nlohmann::json::parse(result.out);

@@ -8,10 +8,7 @@
 namespace diptych::tests {
 
 TEST_CASE("Validation reports a write that races with another, and counts it") {
-    NEED_VULKAN();
-    if (!test_options().validation) {
-        SKIP_TEST("no validation layer");
-    }
+    NEED_VALIDATION();
     clear_validation_messages();
     {
         const auto opened = open_gpu({.device = "", .validation = true});

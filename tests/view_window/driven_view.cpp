@@ -20,8 +20,9 @@ std::vector<std::string> arguments(const std::string& scene, const std::string& 
 
 std::vector<std::string> environment_on(const VirtualDisplay& display, const std::vector<std::string>& more) {
     // GLFW 3.4 would prefer a Wayland desktop to the virtual display.
-    std::vector<std::string> all = {"DISPLAY=" + display.name(), "WAYLAND_DISPLAY=", "XDG_RUNTIME_DIR=",
-                                    "DIPTYCH_VALIDATION=1"};
+    std::vector<std::string> all = {"DISPLAY=" + display.name(), "WAYLAND_DISPLAY=", "XDG_RUNTIME_DIR="};
+    const std::vector<std::string> validation = validation_environment();
+    all.insert(all.end(), validation.begin(), validation.end());
     all.insert(all.end(), more.begin(), more.end());
     return all;
 }

@@ -15,8 +15,8 @@ using Event = nlohmann::json;
 
 class DrivenView {
 public:
-    /// Opens the scene in a window of 640 x 400 with the validation layer at work; `environment` holds "NAME=VALUE"
-    /// beside its own.
+    /// Opens the scene in a window of 640 x 400, under the validation layer where that is installed; `environment`
+    /// holds "NAME=VALUE" beside its own.
     DrivenView(const VirtualDisplay& display, const TemporaryFolder& folder, const std::string& scene,
                const std::vector<std::string>& more, const std::vector<std::string>& environment = {});
 
