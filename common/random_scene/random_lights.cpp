@@ -20,10 +20,13 @@ PunctualLight random_light(Draws& draws, int number) {
     const glm::dvec3 target = draws.within(-0.4, 0.4);
     light.light_to_world = make_camera("", eye, target, 45).camera_to_world;
     light.moving_color = glm::vec3(draws.within(0.1, 1));
-    const double strength = light.type == PunctualType::directional ? draws.between(0.5, 3) : draws.between(6, 30);
+    // Lights are picked by power, and a narrow cone has little: it gets more, or its rare picks would weigh much.
+    const double strength = light.type == PunctualType::directional ? draws.between(0.5, 3)
+                            : light.type == PunctualType::point     ? draws.between(5, 20)
+                                                                    : draws.between(20, 40);
     light.intensity = *light.moving_color * float(strength);
-    light.inner_cone = draws.between(0, 12) * degree;
-    light.outer_cone = draws.between(15, 35) * degree;
+    light.inner_cone = draws.between(0, 20) * degree;
+    light.outer_cone = draws.between(25, 45) * degree;
     return light;
 }
 
@@ -45,6 +48,9 @@ void add_random_lights(RandomScene& out, Draws draws) {
     const int count = draws.below(4);
     for (int i = 0; i < count; ++i) {
         scene.lights.push_back(random_light(draws, i));
+    }
+    if (scene.instances.back().name == room_name) {
+        return;  // whose walls hide the sky, and shine
     }
     Environment& sky = scene.environment;
     const double kind = draws.between(0, 1);

@@ -226,7 +226,7 @@ void add_room(Scene& scene, const TexturePool& textures, std::uint64_t seed) {
     Primitive p;
     add_box(p, {-5, -5, -5}, {5, 5, 7});
     p.material = add_random_material(scene, textures, Role::room, Draws(seed, Topic::materials, scene.materials.size()));
-    add_object(scene, "room", {p});
+    add_object(scene, room_name, {p});
 }
 
 }  // namespace

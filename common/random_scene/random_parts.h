@@ -13,6 +13,9 @@ struct TexturePool {
 };
 TexturePool add_textures(Scene& scene, Draws draws);
 
+/// Of the instance that the walls around everything are; it comes last.
+inline constexpr const char* room_name = "room";
+
 enum class Role {
     object,
     lamp,  // emits in any case

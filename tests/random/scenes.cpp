@@ -33,7 +33,7 @@ Renderers cpu_and_oracle() {
 JudgeOptions quick() {
     JudgeOptions options;
     options.half_width_percent = 2;
-    options.most_spp = 32;
+    options.most_spp = 64;
     return options;
 }
 
@@ -70,11 +70,11 @@ std::uint64_t fresh_seed() {
 
 }  // namespace
 
-TEST_CASE("Random scenes have the oracle's means, first half") {
+TEST_CASE("Random scenes have the oracle's means (first half)") {
     check_scenes(1, 20, cpu_and_oracle(), quick());
 }
 
-TEST_CASE("Random scenes have the oracle's means, second half") {
+TEST_CASE("Random scenes have the oracle's means (second half)") {
     check_scenes(101, 20, cpu_and_oracle(), quick());
 }
 
