@@ -201,6 +201,61 @@ TEST_CASE("Sobol' from SOBOL_MAX_DIMENSION on is independent") {
     CHECK(sample_bits_2d(sobol, DIMENSION_VERTEX) != sample_bits_2d(independent, DIMENSION_VERTEX));
 }
 
+TEST_CASE("Four pairs of dimensions are drawn at once as they are one by one") {
+    for (const uint kind : kinds) {
+        for (const uint dimension : {DIMENSION_FILM, DIMENSION_VERTEX, SOBOL_MAX_DIMENSION - 8, SOBOL_MAX_DIMENSION - 4}) {
+            CAPTURE(kind, dimension);
+            const Sampler s = sampler_of(kind, uvec2(5, 6), 9, 2, 64);
+            const FourPairs pairs = sample_bits_four_pairs(s, dimension);
+            for (int i = 0; i < 4; i++) {
+                const uvec2 one = sample_bits_2d(s, dimension + 2 * uint(i));
+                CHECK(pairs.first[i] == one.x);
+                CHECK(pairs.second[i] == one.y);
+            }
+        }
+    }
+}
+
+// A picture's metadata let anyone repeat it, so other words would be another renderer. No formula says which words are right.
+TEST_CASE("Samplers give the words that they have always given") {
+    struct Word {
+        uint kind, dimension, index, x, y;
+    };
+    const Word words[] = {
+        {SAMPLER_INDEPENDENT, DIMENSION_FILM, 0u, 0x6f9e35cfu, 0x49011741u},
+        {SAMPLER_INDEPENDENT, DIMENSION_FILM, 5u, 0xef123d3eu, 0x3ca2185au},
+        {SAMPLER_INDEPENDENT, DIMENSION_FILM, 13u, 0xce72c15au, 0x3a24a47du},
+        {SAMPLER_INDEPENDENT, DIMENSION_LENS, 0u, 0xb09c4bb9u, 0x2698f3c2u},
+        {SAMPLER_INDEPENDENT, DIMENSION_LENS, 5u, 0x60643105u, 0x0a92ed57u},
+        {SAMPLER_INDEPENDENT, DIMENSION_LENS, 13u, 0xc35a0090u, 0x064d6cd0u},
+        {SAMPLER_INDEPENDENT, DIMENSION_VERTEX, 0u, 0x0883cc70u, 0x53970ca7u},
+        {SAMPLER_INDEPENDENT, DIMENSION_VERTEX, 5u, 0x870d8227u, 0x1e0d7208u},
+        {SAMPLER_INDEPENDENT, DIMENSION_VERTEX, 13u, 0x6c8fbc90u, 0xbf3ec0fcu},
+        {SAMPLER_HAMMERSLEY, DIMENSION_FILM, 0u, 0xf85efd14u, 0x93091015u},
+        {SAMPLER_HAMMERSLEY, DIMENSION_FILM, 5u, 0x485efd14u, 0x33091015u},
+        {SAMPLER_HAMMERSLEY, DIMENSION_FILM, 13u, 0xc85efd14u, 0x43091015u},
+        {SAMPLER_HAMMERSLEY, DIMENSION_LENS, 0u, 0x6c1616d1u, 0xf09fd665u},
+        {SAMPLER_HAMMERSLEY, DIMENSION_LENS, 5u, 0x2c1616d1u, 0xd09fd665u},
+        {SAMPLER_HAMMERSLEY, DIMENSION_LENS, 13u, 0xcc1616d1u, 0x009fd665u},
+        {SAMPLER_HAMMERSLEY, DIMENSION_VERTEX, 0u, 0x0883cc70u, 0x53970ca7u},
+        {SAMPLER_HAMMERSLEY, DIMENSION_VERTEX, 5u, 0x870d8227u, 0x1e0d7208u},
+        {SAMPLER_HAMMERSLEY, DIMENSION_VERTEX, 13u, 0x6c8fbc90u, 0xbf3ec0fcu},
+        {SAMPLER_SOBOL, DIMENSION_FILM, 0u, 0x5b1cf260u, 0xf2d82d5fu},
+        {SAMPLER_SOBOL, DIMENSION_FILM, 5u, 0xe9e12b12u, 0x52bf10ebu},
+        {SAMPLER_SOBOL, DIMENSION_FILM, 13u, 0xc003fc33u, 0x34458794u},
+        {SAMPLER_SOBOL, DIMENSION_LENS, 0u, 0x4bfc499fu, 0x689dc0f1u},
+        {SAMPLER_SOBOL, DIMENSION_LENS, 5u, 0xddffc865u, 0x5911ccffu},
+        {SAMPLER_SOBOL, DIMENSION_LENS, 13u, 0xe6a84b71u, 0x0ed7a580u},
+        {SAMPLER_SOBOL, DIMENSION_VERTEX, 0u, 0x3967c05du, 0xca35d336u},
+        {SAMPLER_SOBOL, DIMENSION_VERTEX, 5u, 0xf77cf47cu, 0xe0ed9503u},
+        {SAMPLER_SOBOL, DIMENSION_VERTEX, 13u, 0xabaf308bu, 0x1df06f1eu},
+    };
+    for (const Word& w : words) {
+        CAPTURE(w.kind, w.dimension, w.index);
+        CHECK(sample_bits_2d(sampler_of(w.kind, uvec2(12, 34), w.index, 99, 16), w.dimension) == uvec2(w.x, w.y));
+    }
+}
+
 TEST_CASE("Estimates over seeds are unbiased, and stratified ones vary less") {
     // f(x, y) = [x^2 + y^2 < 1], mean pi/4.
     double variance[3] = {};

@@ -3,7 +3,9 @@
 
 #include "catch.h"
 #include "close.h"
+#include "rng.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace diptych::shared;
@@ -15,6 +17,32 @@ const uint operators[] = {TONEMAP_EXPONENTIAL, TONEMAP_UNCHARTED2, TONEMAP_ACES,
 
 vec3 gray(float x) {
     return vec3(x, x, x);
+}
+
+/// Khronos PBR Neutral as its specification writes it, in double precision.
+glm::dvec3 pbr_neutral_in_double(glm::dvec3 color) {
+    constexpr double start = 0.8 - 0.04;
+    constexpr double room = 1 - start;
+    const double least = std::min({color.x, color.y, color.z});
+    color -= glm::dvec3(least < 0.08 ? least - 6.25 * least * least : 0.04);
+    const double peak = std::max({color.x, color.y, color.z});
+    if (peak < start) {
+        return color;
+    }
+    const double new_peak = 1 - room * room / (peak + room - start);
+    const double bleached = 1 - 1 / (0.15 * (peak - new_peak) + 1);
+    return color * (new_peak / peak) * (1 - bleached) + glm::dvec3(new_peak * bleached);
+}
+
+double in_double(uint op, double x) {
+    const auto hable = [](double y) {
+        return (y * (0.15 * y + 0.1 * 0.5) + 0.2 * 0.02) / (y * (0.15 * y + 0.5) + 0.2 * 0.3) - 0.02 / 0.3;
+    };
+    switch (op) {
+        case TONEMAP_EXPONENTIAL: return 1 - std::exp(-x);
+        case TONEMAP_UNCHARTED2: return hable(2 * x) / hable(11.2);
+        default: return std::min(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 1.0);
+    }
 }
 
 }  // namespace
@@ -49,6 +77,23 @@ TEST_CASE("Tone maps have the values of their formulas") {
     CHECK(bright.x > 0.99f);
     CHECK(bright.y == bright.z);
     CHECK(bright.y > 0.9f);
+}
+
+TEST_CASE("Tone maps are those of double precision, channel by channel") {
+    for (uint i = 0; i < 3000; i++) {
+        const uvec4 words = pcg4d(uvec4(i, 7, 8, 9));
+        const float size = i % 3 == 0 ? 0.2f : i % 3 == 1 ? 1.0f : 12.0f;
+        const vec3 color = size * vec3(unit_float(words.x), unit_float(words.y), unit_float(words.z));
+        for (const uint op : operators) {
+            const vec3 mapped = tonemap(op, color);
+            const glm::dvec3 neutral = pbr_neutral_in_double(glm::dvec3(color));
+            for (int c = 0; c < 3; c++) {
+                CAPTURE(op, c, color[c]);
+                const double truth = op == TONEMAP_PBR_NEUTRAL ? neutral[c] : in_double(op, double(color[c]));
+                REQUIRE(std::abs(double(mapped[c]) - truth) < 2e-6);
+            }
+        }
+    }
 }
 
 TEST_CASE("Tone maps are defined for any input") {
