@@ -67,11 +67,11 @@ def run(gate, limit, device, **variables):
     return outcome, usage.ru_utime + usage.ru_stime
 
 
-def measure(gate, device):
+def measure(gate, device, longest):
     """Runs the gate without a mutant and notes what it reaches. One that skips a part still judges the rest."""
     folder = tempfile.mkdtemp(prefix='mutation')
     try:
-        gate.outcome, gate.seconds = run(gate, 600, device, DIPTYCH_MUTATION_REACHED=folder)
+        gate.outcome, gate.seconds = run(gate, longest, device, DIPTYCH_MUTATION_REACHED=folder)
         gate.reached = sorted({int(n) for file in pathlib.Path(folder).iterdir() for n in file.read_text().split()})
     finally:
         shutil.rmtree(folder)
@@ -96,8 +96,9 @@ def judge(number, gates, device, budget):
     return ('survived' if reaching else 'not reached'), '', spent, len(reaching)
 
 
-def measured_gates(build, programs, device, jobs, cache):
-    """The gates of these programs, measured once a program: `cache` keeps what was found, with the program's date."""
+def measured_gates(build, programs, device, jobs, cache, longest):
+    """The gates of these programs that take at most `longest` seconds, measured once a program: `cache` keeps what was
+    found, with the program's date."""
     gates = read_gates(build, programs)
     dates = {name: (build / f'tests/tests_{name}').stat().st_mtime for name in {g.name.split(':')[0] for g in gates}}
     known = {}
@@ -112,11 +113,16 @@ def measured_gates(build, programs, device, jobs, cache):
     lock = threading.Lock()
 
     def measure_one(gate):
-        measure(gate, device)
+        measure(gate, device, longest)
+        if gate.outcome == 'timeout':
+            return
         entry = {**asdict(gate), 'date': dates[gate.name.split(':')[0]]}
         with lock, cache.open('a') as file:
             file.write(json.dumps(entry) + '\n')
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         list(pool.map(measure_one, new))
-    return gates
+    late = [g.name for g in gates if g.outcome == 'timeout' or g.seconds > longest]
+    if late:
+        say(f'left out, as they take more than {longest:.0f} s: {late}')
+    return [g for g in gates if g.name not in late]

@@ -40,6 +40,7 @@ def read_arguments():
     parser.add_argument('--minutes', type=float, default=float('inf'), help='after which no further mutant begins')
     parser.add_argument('--programs', metavar='NAME,...', help='tests_NAME alone may kill')
     parser.add_argument('--budget', type=float, default=900, help='seconds a mutant, the last gate not counted')
+    parser.add_argument('--longest', type=float, default=600, help='seconds of a gate; longer ones are left out')
     parser.add_argument('-j', '--jobs', type=int, default=2)
     parser.add_argument('-B', '--folder', type=pathlib.Path, default=ROOT / 'build/mutation')
     parser.add_argument('--list', action='store_true', help='print the sampled mutants and stop')
@@ -100,7 +101,8 @@ def main():
     gates_hold = True
     for target in targets:
         device = TARGETS[target].device
-        gates = measured_gates(folder / 'build', programs[target], device, given.jobs, folder / f'gates-{target}.jsonl')
+        gates = measured_gates(folder / 'build', programs[target], device, given.jobs, folder / f'gates-{target}.jsonl',
+                               given.longest)
         broken = [g.name for g in gates if g.outcome not in ('pass', 'skip')]
         if broken:
             say(f'{target}: these fail without a mutant and prove nothing: {broken}')

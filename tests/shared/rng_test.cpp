@@ -47,6 +47,8 @@ TEST_CASE("pcg4d's words are uniform, and independent of the neighbouring counte
 }
 
 TEST_CASE("hash_combine tells order and pairs apart") {
+    CHECK(hash_combine(0, 0) == hash_word(hash_word(0x9e3779b9U)));  // a pair of zeros is no fixed point
+    CHECK(hash_combine(3, 5) == hash_word(hash_word(3 + 0x9e3779b9U) + 5));
     CHECK(hash_combine(1, 2) != hash_combine(2, 1));
     std::set<uint> seen;
     for (uint a = 0; a < 300; a++) {
