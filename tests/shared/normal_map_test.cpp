@@ -204,6 +204,7 @@ void print_albedos(const char* name, const BsdfParameters& p) {
                     most = std::max(most, seen);
                 }
                 std::printf(" %.3f to %.3f (%.3f) |", least, most, flat);
+                CHECK(most < 1.001);
             }
             std::printf("\n");
         }
