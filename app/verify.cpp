@@ -135,6 +135,9 @@ int run_verify(VerifyOptions options) {
     if (options.random > 0) {
         return verify_random(options);
     }
+    if (!options.shrink) {
+        throw Error("--no-shrink: goes with --random");
+    }
     if (options.arguments.request.scene.empty()) {
         throw Error("verify: wants a scene, .gltf or .glb, or --random N");
     }

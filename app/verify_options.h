@@ -35,6 +35,7 @@ struct VerifyOptions {
     bool common_seeds = false;  // run k of both sides has one seed; see compare_common_runs
     bool paired = false;        // path by path instead; see verify_paired.h
     std::uint32_t random = 0;   // so many random scenes instead; see verify_random.h
+    bool shrink = true;         // a random scene that fails
     std::string output;
     bool json = false;
     const CLI::App* command = nullptr;  // as it was typed, for a message that says what to run

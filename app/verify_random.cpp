@@ -31,7 +31,7 @@ constexpr double shrinking_p = 1e-5;      // below which a smaller scene counts 
 constexpr const char* allowed[] = {"--random",         "--seed",      "--backends", "--integrators",
                                    "--alpha",          "--runs",      "--device",   "--threads",
                                    "--max-half-width", "--validation", "--json",     "--output",
-                                   "--require-pass"};
+                                   "--require-pass",   "--shrink"};
 
 bool given(const VerifyOptions& options, const char* name) {
     return options.command->get_option(name)->count() > 0;
@@ -136,9 +136,10 @@ Failure shrink_failure(const RandomPair& failed, const VerifyOptions& options, c
                        const JudgeOptions& judge_with, const ScratchFolder& scratch) {
     RandomScene random = make_random_scene(failed.scene);
     random.settings.integrator = failed.integrator;
-    random = shrink(random, [&](const RandomScene& smaller) {
+    const StillFails still_fails = [&](const RandomScene& smaller) {
         return fails_alike(smaller, failed, renderers, judge_with, scratch.file("smaller.gltf"));
-    });
+    };
+    random = options.shrink ? shrink(random, still_fails) : random;
     const std::filesystem::path folder = options.output.empty() ? "." : options.output;
     const std::filesystem::path file =
         (folder / fmt::format("random-{}-{}.gltf", failed.scene, name_of(failed.integrator))).lexically_normal();
@@ -165,7 +166,7 @@ std::vector<RandomPair> failing_scenes(const std::vector<RandomPair>& pairs) {
 void print_failure(const Failure& failure) {
     const RandomPair& pair = failure.pair;
     const TileComparison& c = pair.comparison;
-    fmt::print("seed {}: {} - {}: {:.3g} % [{:.3g}, {:.3g}], adjusted p {:.2g}: {}\n  shrunk to {}; {}\n", pair.scene,
+    fmt::print("seed {}: {} - {}: {:.3g} % [{:.3g}, {:.3g}], adjusted p {:.2g}: {}\n  {}: {}\n", pair.scene,
                pair.side, pair.reference, c.bias_percent, c.ci95_percent[0], c.ci95_percent[1], pair.verdict.adjusted_p,
                pair.verdict.reason, failure.file, failure.command);
 }
@@ -256,6 +257,8 @@ void add_random_option(CLI::App& command, VerifyOptions& options) {
                     "against the oracle, vulkan against cpu from the same random numbers. One that fails is shrunk and "
                     "written, into -o")
         ->check(CLI::Range(1U, 1U << 30U));
+    command.add_flag("--shrink,!--no-shrink", options.shrink,
+                     "Of --random: make scenes that fail smaller before they are written; on by default");
 }
 
 int verify_random(const VerifyOptions& options) {

@@ -75,8 +75,8 @@ float random_roughness(Draws& draws) {
 }
 
 void draw_specular(Material& material, Draws& draws) {
-    if (draws.chance(0.3)) {
-        material.ior = draws.pick({1.0F, 1.33F, 2.4F, 0.0F});
+    if (draws.chance(0.5)) {
+        material.ior = draws.pick({1.0F, 1.8F, 2.4F, 0.0F});
     }
     if (draws.chance(0.4)) {
         material.specular = draws.chance(0.2) ? 0.0F : float(draws.between(0, 1));
@@ -94,9 +94,10 @@ void draw_alpha(Material& material, Draws& draws) {
 }  // namespace
 
 TexturePool add_textures(Scene& scene, Draws draws) {
-    // Green is roughness, which is to stay high; alpha is coverage, or the specular factor.
-    constexpr glm::ivec2 value_ranges[4] = {{30, 255}, {170, 255}, {0, 255}, {70, 255}};
-    constexpr glm::ivec2 normal_ranges[4] = {{60, 196}, {60, 196}, {170, 255}, {0, 255}};
+    // The channels' means differ, so that one taken for another shows. Green is roughness, which is to stay high; alpha
+    // is coverage, or the specular factor. Normals lean to one side, so that what is done to them does not cancel.
+    constexpr glm::ivec2 value_ranges[4] = {{15, 140}, {170, 255}, {0, 255}, {130, 255}};
+    constexpr glm::ivec2 normal_ranges[4] = {{110, 215}, {40, 140}, {170, 255}, {0, 255}};
     TexturePool pool;
     for (int i = 0; i < 5; ++i) {
         const std::string number = std::to_string(i);
@@ -126,10 +127,10 @@ int add_random_material(Scene& scene, const TexturePool& textures, Role role, Dr
     material.base_color_texture = random_slot(draws, textures.values, 0.5);
     material.metallic_roughness_texture = random_slot(draws, textures.values, 0.4);
     material.emission_texture = random_slot(draws, textures.values, 0.5);
-    material.specular_texture = random_slot(draws, textures.values, 0.3);
+    material.specular_texture = random_slot(draws, textures.values, 0.4);
     material.specular_color_texture = random_slot(draws, textures.values, 0.3);
     material.normal_texture = random_slot(draws, textures.normals, 0.45);
-    material.normal_scale = draws.pick({1.0F, 0.5F, 1.8F, -1.2F});
+    material.normal_scale = draws.pick({1.0F, 0.4F, 2.0F, -1.5F});
     if (role == Role::room) {
         material = make_material("room", glm::vec3(material.base_color), 0, 1);
         material.base_color[draws.below(3)] = 0.9F;
