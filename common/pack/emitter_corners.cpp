@@ -22,15 +22,14 @@ bool searches_emitters(const PackedScene& packed) {
 }
 
 std::vector<shared::vec3> emitter_corners(const PackedScene& packed) {
-    std::vector<shared::vec3> corners(3 * packed.emissive_triangles.size(),
-                                      shared::vec3(std::numeric_limits<float>::quiet_NaN()));
-    for (std::size_t i = 0; i < packed.emissive_triangles.size(); ++i) {
-        const shared::EmissiveTriangle& light = packed.emissive_triangles[i];
-        if (light.pmf > 0 && !may_be_passed(packed, light)) {
-            corners[3 * i] = light.vertex_0;
-            corners[3 * i + 1] = light.vertex_0 + light.edge_1;
-            corners[3 * i + 2] = light.vertex_0 + light.edge_2;
-        }
+    std::vector<shared::vec3> corners;
+    corners.reserve(3 * packed.emissive_triangles.size());
+    for (const shared::EmissiveTriangle& light : packed.emissive_triangles) {
+        const bool findable = light.pmf > 0 && !may_be_passed(packed, light);
+        const float kept = findable ? 1 : MUTANT(EMITTERS_LEFT_OUT_AS_NAN, 0.0F, std::numeric_limits<float>::quiet_NaN());
+        corners.push_back(light.vertex_0);
+        corners.push_back(light.vertex_0 + kept * light.edge_1);
+        corners.push_back(light.vertex_0 + kept * light.edge_2);
     }
     return corners;
 }
