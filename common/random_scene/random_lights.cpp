@@ -49,7 +49,7 @@ void add_random_lights(RandomScene& out, Draws draws) {
     for (int i = 0; i < count; ++i) {
         scene.lights.push_back(random_light(draws, i));
     }
-    if (scene.instances.back().name == room_name) {
+    if (has_room(scene)) {
         return;  // whose walls hide the sky, and shine
     }
     Environment& sky = scene.environment;

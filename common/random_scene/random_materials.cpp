@@ -33,13 +33,18 @@ int add_texture(Scene& scene, Draws& draws, TextureImage image) {
     return int(scene.textures.size()) - 1;
 }
 
-glm::vec3 random_color(Draws& draws) {
-    glm::vec3 color(draws.within(0.15, 1));
-    if (draws.chance(0.3)) {  // strong: what weighs one channel only goes wrong
-        color[draws.below(3)] = 0;
-        color[draws.below(3)] = 0.9F;
-    }
+/// One channel is 0 and another nearly 1: what goes by one channel alone goes wrong.
+glm::vec3 strong_color(Draws& draws) {
+    glm::vec3 color(draws.within(0.15, 0.6));
+    const int dark = draws.below(3);
+    const int bright = (dark + 1 + draws.below(2)) % 3;
+    color[dark] = 0;
+    color[bright] = 0.9F;
     return color;
+}
+
+glm::vec3 random_color(Draws& draws) {
+    return draws.chance(0.3) ? strong_color(draws) : glm::vec3(draws.within(0.15, 1));
 }
 
 TextureSlot random_slot(Draws& draws, const std::vector<int>& textures, double probability) {
@@ -132,8 +137,8 @@ int add_random_material(Scene& scene, const TexturePool& textures, Role role, Dr
     material.normal_texture = random_slot(draws, textures.normals, 0.45);
     material.normal_scale = draws.pick({1.0F, 0.4F, 2.0F, -1.5F});
     if (role == Role::room) {
-        material = make_material("room", glm::vec3(material.base_color), 0, 1);
-        material.base_color[draws.below(3)] = 0.9F;
+        material = make_material("room", strong_color(draws), 0, 1);
+        material.specular = draws.chance(0.7) ? 0.0F : 1.0F;
         material.double_sided = true;
         material.emission = glm::vec3(draws.within(0.02, 0.4));
     }

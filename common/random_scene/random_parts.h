@@ -16,6 +16,10 @@ TexturePool add_textures(Scene& scene, Draws draws);
 /// Of the instance that the walls around everything are; it comes last.
 inline constexpr const char* room_name = "room";
 
+inline bool has_room(const Scene& scene) {
+    return scene.instances.back().name == room_name;
+}
+
 enum class Role {
     object,
     lamp,  // emits in any case
@@ -32,6 +36,7 @@ void add_random_meshes(Scene& scene, const TexturePool& textures, std::uint64_t 
 void add_random_lights(RandomScene& out, Draws draws);
 
 void add_random_cameras(RandomScene& out, Draws draws);
-void draw_settings(RenderSettings& settings, Draws draws);
+/// In a room, light is followed over more bounces.
+void draw_settings(RenderSettings& settings, bool in_room, Draws draws);
 
 }  // namespace diptych

@@ -14,7 +14,7 @@ RandomScene make_random_scene(std::uint64_t seed) {
     add_random_meshes(out.scene, textures, seed);
     add_random_lights(out, Draws(seed, Topic::lights));
     add_random_cameras(out, Draws(seed, Topic::camera));
-    draw_settings(out.settings, Draws(seed, Topic::settings));
+    draw_settings(out.settings, has_room(out.scene), Draws(seed, Topic::settings));
     return out;
 }
 

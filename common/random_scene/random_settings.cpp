@@ -2,14 +2,14 @@
 
 namespace diptych {
 
-void draw_settings(RenderSettings& settings, Draws draws) {
+void draw_settings(RenderSettings& settings, bool in_room, Draws draws) {
     settings.integrator =
         draws.pick({Integrator::brdf, Integrator::direct, Integrator::path, Integrator::ris, Integrator::restir});
     settings.brdf = draws.pick({BrdfModel::ggx, BrdfModel::blinn_phong});
     settings.normal_maps = draws.chance(0.7) ? NormalMaps::shading : NormalMaps::microfacet;
     settings.sampler = draws.pick({SamplerKind::independent, SamplerKind::sobol});
     settings.mis = draws.pick({MisHeuristic::power, MisHeuristic::balance});
-    settings.max_depth = draws.pick({1U, 1U, 2U, 3U, 6U, 12U});
+    settings.max_depth = in_room ? draws.pick({2U, 6U, 12U}) : draws.pick({1U, 1U, 2U, 3U, 6U, 12U});
     settings.generic = draws.chance(0.3);
     ResamplingSettings& resampling = settings.resampling;
     resampling.light_candidates = draws.pick({1U, 4U, 8U, 16U});

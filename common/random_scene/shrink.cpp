@@ -41,14 +41,6 @@ bool drop_emission(Material& material) {
     return set(material.emission, glm::vec3(0));
 }
 
-/// Instances that hang in nodes leave them: a matrix says the same.
-bool drop_nodes(Scene& scene) {
-    for (Instance& instance : scene.instances) {
-        instance.node = none;
-    }
-    return clear(scene.nodes);
-}
-
 template <typename Part>
 void add_each(std::vector<Drop>& drops, std::vector<Part> Scene::*list) {
     // From the last, so that the places of those before stay.
@@ -133,6 +125,13 @@ bool shows_something(const RandomScene& random) {
 }
 
 }  // namespace
+
+bool drop_nodes(Scene& scene) {
+    for (Instance& instance : scene.instances) {
+        instance.node = none;
+    }
+    return clear(scene.nodes);
+}
 
 RandomScene shrink(RandomScene failing, const StillFails& still_fails, int most_trials) {
     const std::vector<Drop> drops = all_drops();

@@ -138,6 +138,34 @@ TEST_CASE("A random scene is read back as it was drawn") {
     }
 }
 
+TEST_CASE("An instance is where its chain of nodes brings it, and where a matrix says the same") {
+    const TestFolder folder;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        RandomScene random = make_random_scene(seed);
+        for (const bool with_nodes : {true, false}) {
+            INFO("seed " << seed << ", nodes " << with_nodes);
+            if (!with_nodes) {
+                drop_nodes(random.scene);
+            }
+            write_random_scene(random, folder.file("scene.gltf"));
+            const Scene scene = read_random_scene(random, folder.file("scene.gltf"));
+            REQUIRE(scene.instances.size() == random.scene.instances.size());
+            for (const Instance& drawn : random.scene.instances) {
+                const std::string& mesh = random.scene.meshes[std::size_t(drawn.mesh)].name;
+                double nearest = 1e9;  // the file has another order
+                for (const Instance& read : scene.instances) {
+                    double apart = scene.meshes[std::size_t(read.mesh)].name == mesh ? 0 : 1e9;
+                    for (int column = 0; column < 4; ++column) {
+                        apart += glm::length(read.object_to_world[column] - drawn.object_to_world[column]);
+                    }
+                    nearest = std::min(nearest, apart);
+                }
+                CHECK(nearest < 1e-6);
+            }
+        }
+    }
+}
+
 TEST_CASE("Shrinking leaves what fails and nothing else") {
     int shrunk = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
