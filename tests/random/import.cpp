@@ -15,6 +15,7 @@ namespace {
 
 constexpr int runs = 16;
 constexpr int strata = 3;  // a side of a pixel
+constexpr double layer_half_width = 2;  // percent
 
 /// Albedo, 1 + normal and depth: what a film's tiles are made of.
 struct Layers {
@@ -176,7 +177,7 @@ void check_light(const PunctualLight& light, const nlohmann::json& json, const g
     }
 }
 
-/// Three tests of every layer of every scene; the least p by Holm stays above 10^-3.
+/// Three tests of every layer of every scene, by Holm; nine tenths of the layers are known well enough to tell.
 void check_first_hits(std::uint64_t first, std::uint64_t count) {
     const TestFolder folder;
     std::vector<LayerTest> tests;
@@ -184,20 +185,22 @@ void check_first_hits(std::uint64_t first, std::uint64_t count) {
         compare_layers(seed, folder, tests);
     }
     std::vector<TileComparison> comparisons;
-    double worst = 0;
     for (const LayerTest& test : tests) {
         comparisons.push_back(test.comparison);
-        worst = std::max(worst, test.comparison.half_width_percent);
     }
-    const std::vector<PairVerdict> verdicts = judge(comparisons, {.max_half_width = 2, .max_tile_half_width = 100});
+    const std::vector<PairVerdict> verdicts =
+        judge(comparisons, {.max_half_width = layer_half_width, .max_tile_half_width = 100});
+    std::size_t known = 0;
     for (std::size_t i = 0; i < tests.size(); ++i) {
         const TileComparison& c = tests[i].comparison;
         INFO("seed " << tests[i].seed << ", " << tests[i].layer << ": " << c.bias_percent << " % +- "
                      << c.half_width_percent << ": " << verdicts[i].reason << ", p " << c.global_p << " " << c.fisher_p
                      << " " << c.local_p);
-        CHECK(verdicts[i].verdict == Verdict::pass);
+        CHECK(verdicts[i].verdict != Verdict::fail);
+        known += c.half_width_percent <= layer_half_width ? 1U : 0U;
     }
-    std::printf("%d layers, worst half-width %.2g %%\n", int(tests.size()), worst);
+    std::printf("%d layers, of which %d known to %g %%\n", int(tests.size()), int(known), layer_half_width);
+    CHECK(10 * known >= 9 * tests.size());
 }
 
 }  // namespace
