@@ -138,6 +138,7 @@ void check_mapped_draws(int64_t draws) {
             cases.push_back({p, 60.0, 50.0, 3.6, 0.0, model});
             cases.push_back({p, 40.0, 80.0, 2.3, 0.0, model});
             cases.push_back({p, 80.0, 70.0, 0.5, 0.0, model});
+            cases.push_back({p, 40.0, 50.0, 2.45, 0.0, model});  // sees both facets of the microfacet model
             cases.push_back({p, 40.0, 60.0, 2.3, 20.0, model});
             cases.push_back({p, 0.0, 80.0, 2.3, 30.0, model});
         }
