@@ -20,6 +20,30 @@ RendererMaker& replacement() {
     return maker;
 }
 
+#if DIPTYCH_VULKAN
+/// The device from its first renderer to the end of the run: opening takes up to a second, and some drivers open a
+/// device only some sixty times in a process.
+struct KeptDevice {
+    std::string name;
+    bool validation = false;
+    std::shared_ptr<Gpu> gpu;
+};
+
+KeptDevice& kept_device() {
+    static KeptDevice device;
+    return device;
+}
+
+const std::shared_ptr<Gpu>& keep_device(const VulkanOptions& options) {
+    KeptDevice& kept = kept_device();
+    if (kept.gpu == nullptr || kept.name != options.device || kept.validation != options.validation) {
+        kept.gpu.reset();
+        kept = {options.device, options.validation, open_device(options)};
+    }
+    return kept.gpu;
+}
+#endif
+
 }  // namespace
 
 void replace_renderers(RendererMaker maker) {
@@ -46,7 +70,7 @@ std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& p
     options.device = request.device;
     options.validation = request.validation;
     options.group_instances = request.group_instances;
-    return make_vulkan_renderer(packed, options);
+    return make_vulkan_renderer(keep_device(options), packed, options);
 #else
     throw Error("--backend vulkan: this program was built without it (DIPTYCH_VULKAN=OFF); use --backend cpu");
 #endif
@@ -54,6 +78,7 @@ std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& p
 
 int exit_code_after_validation(int exit_code) {
 #if DIPTYCH_VULKAN
+    kept_device().gpu.reset();  // whose end the layer watches too
     if (const std::uint64_t count = validation_message_count(); count > 0) {
         report_error(fmt::format("validation: the layer had {} message{}", count, count == 1 ? "" : "s"));
         return exit_code == exit_done ? exit_check_failed : exit_code;

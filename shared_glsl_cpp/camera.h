@@ -7,22 +7,22 @@
 
 SHARED_BEGIN
 
-/// The ray through a film point in [0, 1]^2, y down, and a point `lens` of the unit square, mapped to the lens.
-/// `direction` is unit. `thin_lens` and `orthographic_allowed` are features: where false, the camera's data is not
-/// asked. An orthographic camera has no lens.
+/// The ray through a film point in [0, 1]^2, y down, and a point `lens` of the unit square, mapped to the lens, whose
+/// centre is the pinhole's; under an orthographic camera each film point has a lens of its own. `direction` is unit.
+/// `thin_lens` and `orthographic_allowed` are features: where false, the camera's data is not asked.
 FN void camera_ray(IN(Camera) c, vec2 film, vec2 lens, bool thin_lens, bool orthographic_allowed, OUT(vec3) origin,
                    OUT(vec3) direction) {
     float x = 2.0f * film.x - 1.0f;
     float y = 1.0f - 2.0f * film.y;
     PRECISE vec3 across = x * c.right + y * c.up;
-    if (orthographic_allowed && c.kind == CAMERA_ORTHOGRAPHIC) {
-        origin = c.origin + across;
-        direction = c.forward;
-        return;
-    }
     PRECISE vec3 toward = c.forward + across;
     origin = c.origin;
-    if (thin_lens && c.lens_radius > 0.0f && c.focus_distance > 0.0f) {
+    if (orthographic_allowed && c.kind == CAMERA_ORTHOGRAPHIC) {
+        origin = c.origin + across;
+        toward = c.forward;
+    }
+    bool lens_allowed = thin_lens && MUTANT(LENS_IN_PERSPECTIVE_ALONE, true, c.kind == CAMERA_PERSPECTIVE);
+    if (lens_allowed && c.lens_radius > 0.0f && c.focus_distance > 0.0f) {
         vec2 disk = sample_disk_concentric(lens) * c.lens_radius;
         vec3 shift = disk.x * normalize(c.right) + disk.y * normalize(c.up);
         origin = origin + shift;

@@ -50,8 +50,7 @@ void record_dispatch(Recorder& recorder, const TracePipeline& pipeline, const Pi
 }
 
 PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes)
-    : PathRenderer(open_gpu({.device = options.device, .validation = validation_wanted(options.validation)}), packed,
-                   with_options(changes, options)) {}
+    : PathRenderer(open_device(options), packed, with_options(changes, options)) {}
 
 PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, const PathRendererOptions& changes)
     : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes),
@@ -370,8 +369,13 @@ std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const 
     return std::make_unique<PathRenderer>(packed, options);
 }
 
-std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed) {
-    return std::make_unique<PathRenderer>(std::move(gpu), packed);
+std::shared_ptr<Gpu> open_device(const VulkanOptions& options) {
+    return open_gpu(GpuRequest{.device = options.device, .validation = validation_wanted(options.validation)});
+}
+
+std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed,
+                                               const VulkanOptions& options) {
+    return std::make_unique<PathRenderer>(std::move(gpu), packed, with_options({}, options));
 }
 
 }  // namespace diptych

@@ -24,7 +24,12 @@ struct VulkanOptions {
 /// Throws NoDevice where no device serves, saying what is missing; Error where one fails.
 std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options);
 
-/// The same on a device that is open already, and that others may use at the same time, from their own threads.
-std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed);
+/// Opens the device that the options name. Throws NoDevice or Error.
+std::shared_ptr<Gpu> open_device(const VulkanOptions& options);
+
+/// The same on a device that is open already, and that others may use at the same time, from their own threads. Of the
+/// options only group_instances is asked.
+std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed,
+                                               const VulkanOptions& options = {});
 
 }  // namespace diptych

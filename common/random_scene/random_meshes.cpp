@@ -190,7 +190,8 @@ int add_random_mesh(Scene& scene, const TexturePool& textures, Role role, std::u
     for (int i = 0; i < count; ++i) {
         Primitive p = random_shape(draws);
         for (glm::vec3& position : p.positions) {
-            position.x += 1.5F * float(i);
+            // They may meet, but no two faces share a plane: rounding would choose the nearer one, for each renderer another.
+            position += float(i) * glm::vec3(1.5F, 0.37F, 0.23F);
         }
         draw_attributes(p, draws);
         p.material = add_random_material(scene, textures, role, Draws(seed, Topic::materials, scene.materials.size()));

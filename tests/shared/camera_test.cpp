@@ -50,22 +50,26 @@ TEST_CASE("A pinhole sees along the film's point, y down") {
     CHECK(std::abs(length(corner.direction) - 1) < 1e-6f);
 }
 
-TEST_CASE("A thin lens keeps the plane of focus sharp and starts on the lens") {
-    const Camera c = camera(CAMERA_PERSPECTIVE);
-    const vec2 film(0.8f, 0.3f);
-    const Ray pinhole = trace(c, film, centre, false, false);
-    const vec3 focus = pinhole.origin + pinhole.direction * (c.focus_distance / -pinhole.direction.z);
-    double widest = 0;
-    for (uint i = 0; i < 1000; i++) {
-        const uvec4 v = pcg4d(uvec4(i, 0, 0, 0));
-        const Ray ray = trace(c, film, vec2(unit_float(v.x), unit_float(v.y)), true, false);
-        const vec3 shift = ray.origin - c.origin;
-        REQUIRE(std::abs(shift.z) < 1e-6f);
-        widest = std::max(widest, double(length(shift)));
-        REQUIRE(length(ray.origin + ray.direction * (c.focus_distance / -ray.direction.z) - focus) < 5e-6f);
+TEST_CASE("A thin lens keeps the plane of focus sharp and starts around the pinhole's ray") {
+    for (const uint kind : {CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC}) {
+        CAPTURE(kind);
+        const Camera c = camera(kind);
+        const vec2 film(0.8f, 0.3f);
+        const Ray pinhole = trace(c, film, centre, false, true);
+        const vec3 focus = pinhole.origin + pinhole.direction * (c.focus_distance / -pinhole.direction.z);
+        double widest = 0;
+        for (uint i = 0; i < 1000; i++) {
+            const uvec4 v = pcg4d(uvec4(i, 0, 0, 0));
+            const Ray ray = trace(c, film, vec2(unit_float(v.x), unit_float(v.y)), true, true);
+            const vec3 shift = ray.origin - pinhole.origin;
+            REQUIRE(std::abs(shift.z) < 1e-6f);
+            REQUIRE(std::abs(length(ray.direction) - 1) < 1e-6f);
+            widest = std::max(widest, double(length(shift)));
+            REQUIRE(length(ray.origin + ray.direction * (c.focus_distance / -ray.direction.z) - focus) < 5e-6f);
+        }
+        CHECK(widest <= 0.1 + 1e-6);
+        CHECK(widest > 0.095);
     }
-    CHECK(widest <= 0.1 + 1e-6);
-    CHECK(widest > 0.095);
 }
 
 TEST_CASE("Lens and projection count only where allowed") {
@@ -74,7 +78,7 @@ TEST_CASE("Lens and projection count only where allowed") {
     Camera far_focus = camera(CAMERA_PERSPECTIVE);
     far_focus.focus_distance = INFINITY;
     CHECK(trace(far_focus, centre, vec2(0.9f, 0.9f), true, false).direction == vec3(0, 0, -1));
-    const Ray flat = trace(camera(CAMERA_ORTHOGRAPHIC), vec2(1, 0), vec2(0.9f, 0.9f), true, true);
+    const Ray flat = trace(camera(CAMERA_ORTHOGRAPHIC), vec2(1, 0), vec2(0.9f, 0.9f), false, true);
     CHECK(length(flat.origin - vec3(1.8f, 2.5f, 3)) < 1e-6f);
     CHECK(flat.direction == vec3(0, 0, -1));
     CHECK(trace(camera(CAMERA_ORTHOGRAPHIC), vec2(1, 0), centre, false, false).origin == vec3(1, 2, 3));
