@@ -42,9 +42,48 @@ FN float pick_number(IN(Sampler) random, uint dimension, uint i) {
     return unit_float(independent_words(random, dimension + i).x);
 }
 
+/// For each pair of the pixel and a neighbour: the target of the neighbour's sample here, and that of the own sample there. 0 where
+/// nobody asks.
+struct PairTargets {
+    float here[RESAMPLING_MAX_NEIGHBORS];
+    float there[RESAMPLING_MAX_NEIGHBORS];
+};
+
+/// Both by one call in one loop: where a loop had two traces, NVIDIA's driver gave wrong answers (decision 0024).
+FN PairTargets pair_targets(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target, IN(Neighborhood) others,
+                            INOUT(uint) rays) {
+    PairTargets targets;
+    for (uint k = 0u; k < 2u * others.count; k++) {
+        uint i = k >> 1;
+        bool there = (k & 1u) != 0u;
+        Reservoir r = neighbor_reservoir(others, i);
+        TargetSurface surface = own_surface;
+        LightPoint point = r.point;
+        uint moment = MOMENT_CURRENT;
+        bool asks = r.weight > 0.0f;
+        if (there) {
+            surface = neighbor_surface(others, i);
+            point = own.point;
+            moment = others.moment;
+            asks = own_target > 0.0f;
+        }
+        float target = 0.0f;
+        if (asks && r.confidence > 0.0f) {
+            target = target_at(surface, point, moment, rays);
+        }
+        if (there) {
+            targets.there[i] = target;
+        } else {
+            targets.here[i] = target;
+        }
+    }
+    return targets;
+}
+
 /// Pairwise MIS with defence. A null sample keeps its confidence.
 FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target, IN(Neighborhood) others,
                             float others_confidence, IN(Sampler) random, uint dimension, INOUT(uint) rays) {
+    PairTargets targets = pair_targets(own_surface, own, own_target, others, rays);
     Resampling chosen = begin_resampling();
     float own_share = own.confidence / (others_confidence + own.confidence);
     for (uint i = 0u; i < others.count; i++) {
@@ -52,19 +91,17 @@ FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, fl
         if (!(r.confidence > 0.0f)) {
             continue;
         }
-        if (r.weight > 0.0f) {
-            float here = target_at(own_surface, r.point, MOMENT_CURRENT, rays);
-            if (here > 0.0f) {
-                float share = MUTANT(REUSE_ONE_OVER_M,
-                                     pairwise_neighbor_share(r.confidence, r.target, own.confidence, here, others_confidence),
-                                     r.confidence / (others_confidence + own.confidence));
-                add_reservoir(chosen, r, here, share, pick_number(random, dimension, i));
-            }
+        float here = targets.here[i];
+        if (here > 0.0f) {
+            float share = MUTANT(REUSE_ONE_OVER_M,
+                                 pairwise_neighbor_share(r.confidence, r.target, own.confidence, here, others_confidence),
+                                 r.confidence / (others_confidence + own.confidence));
+            add_reservoir(chosen, r, here, share, pick_number(random, dimension, i));
         }
         if (own_target > 0.0f) {
-            float there = target_at(neighbor_surface(others, i), own.point, others.moment, rays);
             own_share += MUTANT(REUSE_ONE_OVER_M,
-                                pairwise_canonical_share(r.confidence, there, own.confidence, own_target, others_confidence),
+                                pairwise_canonical_share(r.confidence, targets.there[i], own.confidence, own_target,
+                                                         others_confidence),
                                 0.0f);
         }
     }
