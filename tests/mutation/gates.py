@@ -21,7 +21,6 @@ class Gate:
     name: str
     command: list
     folder: str
-    serial: bool              # holds a clock or threads to something
     seconds: float = 0        # of processors
     outcome: str = 'unknown'  # without a mutant: pass, skip, fail, timeout
     reached: list = field(default_factory=list)
@@ -38,7 +37,7 @@ def read_gates(build, programs):
         if program not in programs or 'nightly' in properties.get('LABELS', []) or 'command' not in test:
             continue
         folder = properties.get('WORKING_DIRECTORY', str(build))
-        gates.append(Gate(test['name'], test['command'], folder, bool(properties.get('RUN_SERIAL'))))
+        gates.append(Gate(test['name'], test['command'], folder))
     return gates
 
 
@@ -87,8 +86,8 @@ def judge(number, gates, device, budget):
         limit = 5 + 10 * gate.seconds  # far beyond the time of the right code
         outcome, seconds = run(gate, limit, device, DIPTYCH_MUTATION=number)
         spent += seconds
-        if outcome == 'fail' and gate.serial and run(gate, limit, device, DIPTYCH_MUTATION=0)[0] == 'fail':
-            continue  # the clock failed, not the mutant
+        if outcome in ('fail', 'timeout') and run(gate, limit, device, DIPTYCH_MUTATION=0)[0] not in ('pass', 'skip'):
+            continue  # a clock, a file or the machine failed, not the mutant
         if outcome in ('fail', 'timeout'):
             return ('killed' if outcome == 'fail' else 'timeout'), gate.name, spent, count
         if spent > budget and count < len(reaching):

@@ -20,10 +20,11 @@ class Target:
 
 TARGETS = {
     'shared': Target(('shared_glsl_cpp/*.h',), ('shared', 'pack', 'common', 'cpu', 'restir', 'oracle', 'geometry',
-                                                'panels', 'extremes', 'view', 'app'), False, 0.95, 240),
+                                                'panels', 'extremes', 'random', 'view', 'app'),
+                     False, 0.95, 240),
     'host': Target(('vk_backend/*.cpp', 'vk_backend/*.h', 'common/pack/*.cpp', 'common/pack/*.h', 'common/stats/*.cpp',
                     'common/stats/*.h'), ('pack', 'common', 'gpu', 'cpu', 'panels', 'geometry', 'restir', 'extremes',
-                                          'view', 'app'), True, 0.90, 72),
+                                          'random', 'view', 'app'), True, 0.90, 72),
 }
 # compat.h is the language itself; the bench and the window's images are seen by no test of ./test that could tell.
 LEFT_OUT = {'shared_glsl_cpp/compat.h', 'vk_backend/traversal_bench.cpp', 'vk_backend/swapchain.cpp'}

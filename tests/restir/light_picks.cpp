@@ -102,4 +102,62 @@ TEST_CASE("A dim lamp is found beside itself, though bright ones share its clust
     CHECK(dimmest < 1e-3F);
 }
 
+TEST_CASE("As many lights are picked near as asked for, from one on, and the rest by power") {
+    for (std::uint32_t near = 0; near <= 4; ++near) {
+        RenderSettings settings;
+        settings.width = 8;
+        settings.height = 8;
+        settings.integrator = Integrator::ris;
+        settings.resampling.light_candidates = 8;
+        settings.resampling.near_share = static_cast<float>(near) / 8;
+        const PackedScene packed = pack_scene(generated("many-lights", 300), settings);
+        const EmbreeScene embree(packed);
+        Kernel kernel{packed, packed.constants, {{embree}}};
+        const auto picker = kernel.begin_light_picker(surface_at(packed.emissive_triangles[7].vertex_0, {0, 1, 0}));
+        CAPTURE(near);
+        CHECK(picker.near == near);
+        CHECK(picker.by_power == 8 - near);
+        CHECK((picker.sum > 0) == (near > 0));
+    }
+}
+
+TEST_CASE("Near picks are of a lone cluster too") {
+    Scene scene;
+    add_object(scene, "floor", {horizontal_square({0, 0, 0}, 2, true, add_material(scene, diffuse_material(0.5F)))});
+    scene.cameras.push_back(point_camera({0, 1, 1}, {0, 0, 0}));
+    PunctualLight bulb;
+    bulb.light_to_world[3] = {0, 1, 0, 1};
+    scene.lights = {bulb};
+    RenderSettings settings;
+    settings.width = 8;
+    settings.height = 8;
+    settings.integrator = Integrator::ris;
+    const PackedScene packed = pack_scene(scene, settings);
+    const EmbreeScene embree(packed);
+    Kernel kernel{packed, packed.constants, {{embree}}};
+    REQUIRE(packed.constants.light_cluster_count == 1);
+    REQUIRE(packed.constants.resampling.near_candidates > 0);
+    const auto picker = kernel.begin_light_picker(surface_at(glm::vec3(-packed.origin), {0, 1, 0}));
+    CHECK(picker.near == packed.constants.resampling.near_candidates);
+}
+
+TEST_CASE("An emitter is within reach beside any of them, and none is far from all") {
+    RenderSettings settings;
+    settings.width = 8;
+    settings.height = 8;
+    settings.integrator = Integrator::ris;
+    const PackedScene packed = pack_scene(generated("many-lights", 300), settings);
+    const EmbreeScene embree(packed);
+    Kernel kernel{packed, packed.constants, {{embree}}};
+    REQUIRE(packed.constants.light_cluster_count > 1);
+    REQUIRE(kernel.light_reach() > 0);
+    int far = 0;
+    for (const shared::EmissiveTriangle& light : packed.emissive_triangles) {
+        const glm::vec3 beside = light.vertex_0 + 0.5F * kernel.light_reach() * light.front;
+        far += kernel.begin_light_picker(surface_at(beside, -light.front)).close ? 0 : 1;
+    }
+    CHECK(far == 0);
+    CHECK(!kernel.begin_light_picker(surface_at({0, 500, 0}, {0, -1, 0})).close);
+}
+
 }  // namespace diptych::tests

@@ -1,6 +1,8 @@
 // Points of lights of every kind: how they are named, drawn and seen; and that the rays that passes trace are counted.
+#include <map>
 #include <random>
 
+#include "../cpu/agreement_scenes.h"
 #include "backend/resampling_stages.h"
 #include "chain_cases.h"
 
@@ -138,6 +140,86 @@ TEST_CASE("A light point is drawn with the density that it is said to have, and 
     CHECK(picked == Approx(1.0).epsilon(1e-5));
     shared::LightPoint none = shared::no_light_point();
     CHECK(lights.kernel.see_light_point(none, reference, shared::MOMENT_CURRENT).measure == 0.0F);
+}
+
+TEST_CASE("A light point of the moment before is where its light was, and as bright as that was") {
+    Lights lights(small_settings(Integrator::restir));
+    lights.packed.features |= shared::FEATURE_MOTION;
+    lights.packed.previous_emissive_triangles = lights.packed.emissive_triangles;
+    lights.packed.previous_punctual_lights = lights.packed.punctual_lights;
+    for (shared::EmissiveTriangle& light : lights.packed.previous_emissive_triangles) {
+        light.vertex_0 += glm::vec3(0.5F, 0.1F, -0.2F);
+        light.radiance *= 7.0F;
+    }
+    for (shared::PunctualLight& light : lights.packed.previous_punctual_lights) {
+        light.intensity *= 5.0F;
+    }
+    const glm::vec3 reference = glm::vec3(0.1F, 0.2F, -0.3F) - glm::vec3(lights.packed.origin);
+    for (std::uint32_t id = 0; id < 4; ++id) {
+        const shared::LightPoint point = lights.kernel.sample_light_point(id, {0.2F, 0.3F}, {1U, 2U}).point;
+        const auto now = lights.kernel.see_light_point(point, reference, shared::MOMENT_CURRENT);
+        const auto before = lights.kernel.see_light_point(point, reference, shared::MOMENT_PREVIOUS);
+        CAPTURE(id);
+        CHECK(glm::length(before.radiance - (id < 2 ? 7.0F : 5.0F) * now.radiance) < 1e-5F * before.radiance.x);
+        if (id < 2) {
+            const auto& light = lights.packed.previous_emissive_triangles[id];
+            const glm::vec3 to = light.vertex_0 + point.uv.x * light.edge_1 + point.uv.y * light.edge_2 - reference;
+            CHECK(glm::length(before.direction - glm::normalize(to)) < 1e-6F);
+        }
+    }
+}
+
+TEST_CASE("Rays pass an emitter in places if its material is MASK or BLEND, and sampling the material does not find it there") {
+    Scene scene = all_kinds_of_light();
+    const int texture = add_checker_texture(scene, 4, Filter::linear);
+    for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend}) {
+        Material lamp = make_emitter("lamp", glm::vec3(1));
+        lamp.emission_texture.texture = texture;
+        lamp.base_color_texture.texture = texture;
+        lamp.alpha_mode = mode;
+        Primitive square = horizontal_square({0, 1.2F, 0}, 0.2F, false, add_material(scene, lamp));
+        square.uvs[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        add_object(scene, "lamp", {square});
+    }
+    Lights lights(small_settings(Integrator::ris), scene);
+    std::map<int, int> triangles;
+    for (const shared::EmissiveTriangle& light : lights.packed.emissive_triangles) {
+        const shared::uint flags = lights.packed.materials[lights.packed.geometries[light.geometry].material].flags;
+        const bool passable = (flags & (shared::MATERIAL_ALPHA_MASK | shared::MATERIAL_ALPHA_BLEND)) != 0;
+        ++triangles[static_cast<int>(flags & (shared::MATERIAL_ALPHA_MASK | shared::MATERIAL_ALPHA_BLEND))];
+        CHECK(lights.kernel.may_be_passed(light) == passable);
+        const glm::vec3 below = light.vertex_0 + 0.3F * (light.edge_1 + light.edge_2) + light.front;
+        CHECK(lights.kernel.see_emitter(light, {0.3F, 0.3F}, below).by_chance != passable);
+    }
+    CHECK(triangles.size() == 3);
+    CHECK(triangles[0] == 4);  // of the room's plain lamp and the opaque one with a texture
+}
+
+TEST_CASE("What takes no light from a reservoir is unlit, a mirror or nothing at all") {
+    Scene scene = all_kinds_of_light();
+    Material unlit = diffuse_material(0.5F);
+    unlit.unlit = true;
+    const int kinds[] = {add_material(scene, unlit), add_material(scene, make_material("mirror", glm::vec3(1), 1, 0)),
+                         add_material(scene, make_material("rough", glm::vec3(1), 1, 0.4F))};
+    const bool takes[] = {false, false, true, true, false};  // then the floor, and the sky
+    for (int k = 0; k < 3; ++k) {
+        add_object(scene, "patch", {horizontal_square({k, 5, 0}, 0.2F, true, kinds[k])});
+    }
+    for (int k = 0; k < 5; ++k) {
+        const glm::dvec3 target = k < 3 ? glm::dvec3(k, 5, 0) : k == 3 ? glm::dvec3(-1, 0, 0) : glm::dvec3(0, 20, -3);
+        scene.cameras = {point_camera({-1, 8, 4}, target)};
+        RenderSettings settings = small_settings(Integrator::ris);
+        Lights lights(settings, scene);
+        ResamplingFilms films(lights.packed.constants);
+        lights.kernel.films = &films;
+        ResamplingSchedule schedule(lights.packed.constants);
+        const shared::ResamplingPass pass = schedule.next_frame(0).front().pass;
+        lights.kernel.find_first_vertex({3, 4}, pass);
+        const auto hit = lights.kernel.load_first_vertex(4 * 16 + 3).hit;
+        CAPTURE(k, hit.instance);
+        CHECK((hit.instance == shared::NONE) == (k == 4));
+        CHECK(lights.kernel.load_first_surface({3, 4}, pass, hit).takes_light == takes[k]);
+    }
 }
 
 TEST_CASE("Every ray that ris and restir trace is counted at its pixel, once") {

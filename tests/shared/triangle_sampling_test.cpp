@@ -249,6 +249,7 @@ TEST_CASE("No NaN at the ends of u, on needles, from within the plane, or for no
         {x, y, z},
         {x * 1e-20f, y * 1e-20f, z * 1e-20f},
         {-x - y, x * 4.0f, y * 4.0f},
+        {-x, x * 2.0f, x + y},  // from an edge, where volume and denominator are both exactly 0
         {x + y, x, y},
     };
     for (const Triangle& t : triangles) {
