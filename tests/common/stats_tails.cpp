@@ -121,6 +121,28 @@ TEST_CASE("The brighter side's tail excuses nothing") {
     CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::pass);
 }
 
+TEST_CASE("An interval has the bias in its middle, and twice its half width") {
+    std::mt19937_64 random(8);
+    const auto a = made_up_runs(random, 12, 4, scaled(grey(normal_noise()), 1.3));
+    const auto b = made_up_runs(random, 12, 4, grey(normal_noise()));
+    const TileComparison c = compare_runs(a, b, {.resamplings = 0});
+    CHECK(c.bias_percent == Approx(30).margin(12));
+    CHECK(c.ci95_percent[0] + c.ci95_percent[1] == Approx(2 * c.bias_percent));
+    CHECK(c.ci95_percent[1] - c.ci95_percent[0] == Approx(2 * c.half_width_percent));  // grey: every channel's
+}
+
+TEST_CASE("Six runs a side have too few draws of signs for 400, seven have enough") {
+    for (const int count : {6, 7}) {  // C(6, 3)^2 / 2 = 200, C(7, 3)^2 / 2 = 612
+        std::mt19937_64 random(9);
+        const auto a = made_up_runs(random, count, 16, normal_noise());
+        const auto b = made_up_runs(random, count, 16, normal_noise());
+        const double one = compare_runs(a, b, {.resamplings = 400, .seed = 1}).fisher_p;
+        const double other = compare_runs(a, b, {.resamplings = 400, .seed = 2}).fisher_p;
+        CAPTURE(count, one, other);
+        CHECK((one != other) == (count == 7));  // drawn with that seed, or not drawn
+    }
+}
+
 TEST_CASE("Common seeds leave what differs, as wide as it is") {
     std::mt19937_64 random(31);
     std::vector<double> global;

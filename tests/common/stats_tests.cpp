@@ -164,6 +164,15 @@ TEST_CASE("Eigenvectors and inverses of symmetric matrices undo them") {
             CHECK(identity == Approx(i == j ? 1 : 0).margin(1e-13));
         }
     }
+    for (const std::size_t rank : {1U, 2U}) {  // of the block in front
+        REQUIRE(invert(m, static_cast<int>(rank), inverse));
+        for (std::size_t i = 0; i < rank; ++i) {
+            for (std::size_t j = 0; j < rank; ++j) {
+                const double identity = m[i][0] * inverse[0][j] + (rank > 1 ? m[i][1] * inverse[1][j] : 0);
+                CHECK(identity == Approx(i == j ? 1 : 0).margin(1e-13));
+            }
+        }
+    }
     CHECK_FALSE(invert({{{1, 1, 0}, {1, 1, 0}, {0, 0, 1}}}, 2, inverse));
 }
 

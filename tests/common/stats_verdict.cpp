@@ -1,4 +1,6 @@
 // Verdicts, and the way from a film to its tiles.
+#include <tuple>
+
 #include "catch.h"
 #include "error.h"
 #include "render/film_tiles.h"
@@ -59,6 +61,36 @@ TEST_CASE("An inconclusive verdict says how many samples would tell") {
     verdict = judged(differs);
     CHECK(verdict.verdict == Verdict::inconclusive);
     CHECK(verdict.more_samples == Approx(9));
+}
+
+TEST_CASE("An interval leaves 0 out if it lies on one side of it, however close") {
+    TileComparison comparison;
+    for (const auto& [low, high, excludes] : {std::tuple{0.01, 0.5, true}, {-0.5, -0.01, true}, {-0.01, 0.5, false}, {-0.5, 0.01, false}}) {
+        comparison.ci95_percent[0] = low;
+        comparison.ci95_percent[1] = high;
+        CAPTURE(low, high);
+        CHECK(excludes_zero(comparison) == excludes);
+    }
+}
+
+TEST_CASE("One run decides if it holds nearly all of a variance that is more than rounding") {
+    TileComparison comparison;
+    comparison.tail_a.runs = 16;
+    comparison.tail_a.largest_share = 0.99;
+    const double rounding_percent = 100 * channel_rounding;
+    comparison.standard_error_percent = 1.02 * rounding_percent;
+    CHECK(single_run_decides(comparison));
+    comparison.common_seeds = true;
+    CHECK_FALSE(single_run_decides(comparison));
+    comparison.common_seeds = false;
+    comparison.standard_error_percent = 0.98 * rounding_percent;
+    CHECK_FALSE(single_run_decides(comparison));
+    comparison.standard_error_percent = 1.02 * rounding_percent;
+    comparison.tail_a.largest_share = 0.4;
+    CHECK_FALSE(single_run_decides(comparison));
+    std::swap(comparison.tail_a, comparison.tail_b);
+    comparison.tail_b.largest_share = 0.99;
+    CHECK(single_run_decides(comparison));
 }
 
 TEST_CASE("Tiles alone fail no pair whose tails are lopsided, the image mean does") {

@@ -125,6 +125,36 @@ TEST_CASE("Lights are picked by power, beside a defensive share") {
     CHECK(pmf_sum == Approx(1).epsilon(1e-6));
 }
 
+TEST_CASE("Lights from afar have the power that they bring to the scene's sphere, spots that of their cone") {
+    Scene scene = lit_scene();
+    scene.meshes[0].primitives[0].positions[0] *= 3.0F;  // so that no radius is 1
+    scene.environment.kind = EnvironmentKind::constant;
+    scene.environment.scale = glm::vec3(0.3F);
+    PunctualLight sun;
+    sun.type = PunctualType::directional;
+    sun.intensity = glm::vec3(2);
+    PunctualLight spot;
+    spot.type = PunctualType::spot;
+    spot.intensity = glm::vec3(5);
+    spot.inner_cone = 0.3;
+    spot.outer_cone = 0.5;
+    scene.lights = {sun, spot};
+    const PackedScene packed = pack_scene(scene, path_settings());
+    const double r = packed.radius;
+    REQUIRE(std::abs(r - 1) > 0.1);
+    const std::size_t emitters = packed.emissive_triangles.size();
+    REQUIRE(packed.light_powers.size() == emitters + 3);
+    CHECK(packed.light_powers[emitters] == Approx(pi * r * r * 2));
+    CHECK(packed.light_powers[emitters + 1] == Approx(2 * pi * 5 * (1 - 0.5 * (std::cos(0.3) + std::cos(0.5)))));
+    CHECK(packed.light_powers[emitters + 2] == Approx(4 * pi * pi * r * r * 0.3));
+    // KHR_lights_punctual: full light within the inner cone, none beyond the outer one, in between by the cosine.
+    const shared::PunctualLight& cone = packed.punctual_lights[1];
+    const auto falloff = [&](double cosine) { return cosine * static_cast<double>(cone.cone_scale) + static_cast<double>(cone.cone_offset); };
+    CHECK(falloff(std::cos(0.3)) == Approx(1).epsilon(1e-5));
+    CHECK(falloff(std::cos(0.5)) == Approx(0).margin(1e-5));
+    CHECK(falloff(0.5 * (std::cos(0.3) + std::cos(0.5))) == Approx(0.5).epsilon(1e-5));
+}
+
 TEST_CASE("Emitters without area are never lights, and the rest share all") {
     Scene scene = lit_scene();
     Primitive& red = scene.meshes[0].primitives[1];

@@ -51,6 +51,22 @@ TEST_CASE("Singular values and vectors make the matrix, and the vectors are orth
     CHECK(singular_values(glm::dmat3(0), false).values == glm::dvec3(0));
 }
 
+TEST_CASE("Matrices of rank one and two have singular vectors that are orthogonal too") {
+    std::mt19937 random(4);
+    std::normal_distribution<double> normal;
+    const auto vector = [&] { return glm::dvec3(normal(random), normal(random), normal(random)); };
+    for (int i = 0; i < 20000; ++i) {
+        glm::dmat3 m = glm::outerProduct(vector(), vector());
+        if (i % 2 == 0) {
+            m += std::pow(10.0, -static_cast<double>(random() % 20)) * glm::outerProduct(vector(), vector());
+        }
+        const SingularValues s = singular_values(m, false);
+        REQUIRE(s.values.z <= 1e-15 * s.values.x);
+        REQUIRE(largest_difference(glm::transpose(s.left) * s.left, glm::dmat3(1)) < 1e-14);
+        REQUIRE(largest_difference(glm::transpose(s.right) * s.right, glm::dmat3(1)) < 1e-14);
+    }
+}
+
 TEST_CASE("Thickened matrices keep what they were and have an inverse") {
     const auto diagonal = [](double x, double y, double z) { return glm::dmat3(x, 0, 0, 0, y, 0, 0, 0, z); };
     const Spread cube{glm::dmat3(1), glm::dvec3(1)};

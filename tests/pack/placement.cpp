@@ -127,6 +127,36 @@ TEST_CASE("Meshes are kept once, whatever the number of their instances") {
     CHECK(packed.meshes.size() == 1);
 }
 
+TEST_CASE("A mesh's spread is that of its longest, middle and shortest axis, however they lie") {
+    // An octahedron, each corner of which is in four triangles, so that its principal axes are its own.
+    const glm::dvec3 half(3, 0.5, 0.1);
+    const glm::dmat3 turned(glm::normalize(glm::dvec3(2, 1, 2)), glm::normalize(glm::dvec3(-2, 2, 1)), glm::normalize(glm::dvec3(-1, -2, 2)));
+    const glm::dvec3 middle(0.7, -0.4, 0.2);
+    Primitive p;
+    for (int axis = 0; axis < 3; ++axis) {
+        p.positions.emplace_back(middle + turned[axis] * half[axis]);
+        p.positions.emplace_back(middle - turned[axis] * half[axis]);
+    }
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        p.triangles.emplace_back(corner & 1U, 2 + (corner >> 1U & 1U), 4 + (corner >> 2U));
+    }
+    Scene scene = least_scene();
+    p.material = 0;
+    scene.meshes.clear();
+    scene.instances.clear();
+    add_object(scene, "octahedron", {p});
+    scene.nodes.emplace_back();  // that may flatten it at some moment
+    scene.instances[0].node = 0;
+    const PackedScene packed = pack_scene(scene, brdf_settings());
+    const MeshFrame& frame = packed.mesh_frames.at(0);
+    CHECK(glm::length(frame.center + frame.unit * frame.middle - middle) < 1e-6);
+    CHECK(glm::length(frame.unit * frame.spread.half - half) < 1e-6);
+    for (int axis = 0; axis < 3; ++axis) {
+        CHECK(std::abs(glm::dot(frame.spread.axes[axis], turned[axis])) == Approx(1).epsilon(1e-6));
+    }
+    CHECK(glm::determinant(frame.spread.axes) == Approx(1));
+}
+
 TEST_CASE("The camera's film has the render's aspect") {
     Scene scene = least_scene();
     scene.cameras[0].vertical_fov = 2 * std::atan(0.5);
@@ -134,6 +164,7 @@ TEST_CASE("The camera's film has the render's aspect") {
     settings.width = 300;
     settings.height = 100;
     const shared::Camera c = pack_scene(scene, settings).constants.camera;
+    CHECK(c.kind == shared::CAMERA_PERSPECTIVE);
     CHECK(glm::length(c.up) == Approx(0.5));
     CHECK(glm::length(c.right) == Approx(1.5));
     CHECK(glm::length(c.forward) == Approx(1));
