@@ -34,6 +34,23 @@ TEST_CASE("Slices cover every sample of every pixel once, in order, within the b
     }
 }
 
+TEST_CASE("A slice takes as many whole samples as the budget has room for, else as many whole rows") {
+    const auto slices = [](std::uint64_t budget, std::uint64_t limit) {
+        SliceCursor cursor({2, 3, 7, 5}, 4, 6);
+        int count = 0;
+        while (!cursor.done()) {
+            cursor.next(budget, limit);
+            ++count;
+        }
+        return count;
+    };
+    CHECK(slices(6 * 35, 1000) == 1);
+    CHECK(slices(100, 1000) == 3);  // of two samples each
+    CHECK(slices(35, 1000) == 6);
+    CHECK(slices(34, 1000) == 6 * 2);  // four rows and one
+    CHECK(slices(1000, 15) == 6 * 3);  // two rows, two and one
+}
+
 TEST_CASE("Nothing is left to slice where there are no samples or no pixels") {
     CHECK(SliceCursor({0, 0, 4, 4}, 0, 0).done());
     CHECK(SliceCursor({0, 0, 0, 4}, 0, 9).done());

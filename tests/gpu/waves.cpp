@@ -57,7 +57,10 @@ TEST_CASE("Paths in flight: one a pixel, within bounds") {
     // Shadow rays have no room where no light is sampled, and resampled direct light has no path to follow.
     const std::uint64_t of_path = bytes_with(Integrator::path, 3);
     CHECK(of_path - bytes_with(Integrator::brdf, 3) == std::uint64_t{fewest} * sizeof(shared::WaveShadow));
-    CHECK(bytes_with(Integrator::ris, 3) - bytes_with(Integrator::ris, 1) == of_path);
+    const std::uint64_t of_ris = bytes_with(Integrator::ris, 1);
+    CHECK(bytes_with(Integrator::ris, 3) - of_ris == of_path);
+    settings.resampling.bsdf_candidate = false;  // then no list of those that need rays, which begins with an indirect command
+    CHECK(of_ris - bytes_with(Integrator::ris, 1) == 3 * sizeof(std::uint32_t) + std::uint64_t{64} * sizeof(shared::CandidateRequest));
 }
 
 }  // namespace diptych::tests

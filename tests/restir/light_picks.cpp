@@ -121,26 +121,6 @@ TEST_CASE("As many lights are picked near as asked for, from one on, and the res
     }
 }
 
-TEST_CASE("Near picks are of a lone cluster too") {
-    Scene scene;
-    add_object(scene, "floor", {horizontal_square({0, 0, 0}, 2, true, add_material(scene, diffuse_material(0.5F)))});
-    scene.cameras.push_back(point_camera({0, 1, 1}, {0, 0, 0}));
-    PunctualLight bulb;
-    bulb.light_to_world[3] = {0, 1, 0, 1};
-    scene.lights = {bulb};
-    RenderSettings settings;
-    settings.width = 8;
-    settings.height = 8;
-    settings.integrator = Integrator::ris;
-    const PackedScene packed = pack_scene(scene, settings);
-    const EmbreeScene embree(packed);
-    Kernel kernel{packed, packed.constants, {{embree}}};
-    REQUIRE(packed.constants.light_cluster_count == 1);
-    REQUIRE(packed.constants.resampling.near_candidates > 0);
-    const auto picker = kernel.begin_light_picker(surface_at(glm::vec3(-packed.origin), {0, 1, 0}));
-    CHECK(picker.near == packed.constants.resampling.near_candidates);
-}
-
 TEST_CASE("An emitter is within reach beside any of them, and none is far from all") {
     RenderSettings settings;
     settings.width = 8;
