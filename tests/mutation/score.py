@@ -26,7 +26,8 @@ def count(mutants, reasons):
     killed = sum(m.killed for m in mutants)
     return {'sampled': len(mutants), 'not compiled': len(not_compiled), 'equivalent': len(equivalent), 'judged': judged,
             'killed': killed, 'of these by time': sum(m.outcome == 'timeout' for m in mutants),
-            'survived': judged - killed, 'score': killed / max(1, judged)}
+            'survived': judged - killed, 'score': killed / max(1, judged),
+            'seconds': round(sum(m.seconds for m in mutants))}
 
 
 def report(mutants, reasons, seed, path):
@@ -45,8 +46,6 @@ def report(mutants, reasons, seed, path):
     for m in mutants:
         if m.outcome in SURVIVED and m.key not in reasons:
             print(f'\n{m.number} {m.place}: {m.outcome} after {m.seconds:.0f} s\n    {m.key}')
-    judged = sum(row['judged'] for row in rows.values())
-    print(f'\n{sum(m.seconds for m in mutants):.0f} s of gates for {judged} mutants')
     entries = [{'number': m.number, 'target': m.target, 'line': m.site.line, 'key': m.key, 'outcome': m.outcome,
                 'gate': m.gate, 'seconds': round(m.seconds, 1), 'equivalent': reasons.get(m.key, '')} for m in mutants]
     result = {'seed': seed, 'date': str(datetime.date.today()), 'targets': rows, 'mutants': entries}
