@@ -121,6 +121,24 @@ TEST_CASE("The brighter side's tail excuses nothing") {
     CHECK(judge(std::span(&comparison, 1), {}).front().verdict == Verdict::pass);
 }
 
+TEST_CASE("The skewness of runs is that of their sum of independent tiles, in any unit of radiance") {
+    for (const double unit : {1e-3, 1.0, 1e3}) {
+        std::vector<RunMeans> a;
+        std::vector<RunMeans> b;
+        for (const double x : {0.0, 0.0, 0.0, 1.0}) {  // g1 = 2 / sqrt(3); of the mirrored values its opposite
+            const double values[] = {unit * (1 + x), unit * (2 - x)};
+            a.push_back({.image = {values[0], values[0], values[0]}, .tiles = {4, {values[0], values[0], values[0]}}});
+            b.push_back({.image = {values[1], values[1], values[1]}, .tiles = {4, {values[1], values[1], values[1]}}});
+        }
+        const TileComparison c = compare_runs(a, b, {.resamplings = 0});
+        CAPTURE(unit);
+        CHECK(c.tail_a.skewness == Approx(2 / std::sqrt(3.0) / 2));  // four tiles: by the root of their number less
+        CHECK(c.tail_b.skewness == Approx(-2 / std::sqrt(3.0) / 2));
+        CHECK(c.tail_a.skewness_error == Approx(std::sqrt(6.0 / 4) / 4));
+        CHECK(c.tail_a.largest_share == Approx(0.75));
+    }
+}
+
 TEST_CASE("An interval has the bias in its middle, and twice its half width") {
     std::mt19937_64 random(8);
     const auto a = made_up_runs(random, 12, 4, scaled(grey(normal_noise()), 1.3));
