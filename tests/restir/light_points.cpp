@@ -222,6 +222,28 @@ TEST_CASE("What takes no light from a reservoir is unlit, a mirror or nothing at
     }
 }
 
+TEST_CASE("A lamp and a sky are seen in a mirror as bright as they are, where first vertices take light from reservoirs too") {
+    for (const bool lamp : {true, false}) {
+        Scene scene;
+        std::vector<Primitive> parts{horizontal_square({0, 0, 0}, 1, true, add_material(scene, make_material("mirror", glm::vec3(1), 1, 0)))};
+        if (lamp) {
+            parts.push_back(horizontal_square({0, 1, -1}, 0.3F, false, add_material(scene, make_emitter("lamp", {3, 2, 1}))));
+        } else {
+            scene.environment.kind = EnvironmentKind::constant;
+            scene.environment.scale = glm::vec3(3, 2, 1);
+        }
+        add_object(scene, "room", parts);
+        scene.cameras.push_back(point_camera({0, 1, 1}, {0, 0, 0}));
+        for (const Integrator integrator : {Integrator::path, Integrator::ris, Integrator::restir}) {
+            const ImageMean m = image_mean(render_cpu(scene, statistical_settings(4, 4, integrator, 1), 2));
+            INFO(name_of(integrator) << (lamp ? ", a lamp: " : ", a sky: ") << describe(m));
+            for (std::size_t c = 0; c < 3; ++c) {
+                CHECK(m.mean[c] == Approx(3.0 - static_cast<double>(c)).epsilon(1e-5));
+            }
+        }
+    }
+}
+
 TEST_CASE("Every ray that ris and restir trace is counted at its pixel, once") {
     // On the glossy plates of veach-mis materials look for lamps, and picked points ask whether an emitter is before them.
     const Scene scene = GENERATE(0, 1) == 0 ? all_kinds_of_light() : generated("veach-mis");
