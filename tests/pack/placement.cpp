@@ -157,6 +157,23 @@ TEST_CASE("A mesh's spread is that of its longest, middle and shortest axis, how
     CHECK(glm::determinant(frame.spread.axes) == Approx(1));
 }
 
+TEST_CASE("A mesh's unit is a power of two near its own size, wherever it lies, and 1 for what is neither tiny nor huge") {
+    const auto frame_of = [](const glm::vec3& center, float half, const glm::dmat4& to_world) {
+        Scene scene = least_scene();
+        for (glm::vec3& p : scene.meshes[0].primitives[0].positions) {
+            p = center + half * p;
+        }
+        scene.instances[0].object_to_world = to_world;
+        return pack_scene(scene, brdf_settings()).mesh_frames.at(0);
+    };
+    const MeshFrame away = frame_of({1e8F, 0, 0}, 128, translation(-1e8, 0, 0));
+    CHECK(away.unit == 1);
+    CHECK(glm::length(away.center - glm::dvec3(1e8, 0, 0)) < 16);
+    const MeshFrame tiny = frame_of({0, 0, 0}, 0x1p-27F, glm::dmat4(glm::dmat3(0x1p27)));
+    CHECK(tiny.unit == 0x1p-27);
+    CHECK(tiny.center == glm::dvec3(0));
+}
+
 TEST_CASE("The camera's film has the render's aspect") {
     Scene scene = least_scene();
     scene.cameras[0].vertical_fov = 2 * std::atan(0.5);
