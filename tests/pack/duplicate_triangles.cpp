@@ -49,6 +49,19 @@ TEST_CASE("Exact duplicates within a mesh are left out, counted and reported") {
     CHECK(packed_triangles(copies) == 1);
 }
 
+TEST_CASE("Duplicates are found whichever corner is named first, also where the least ones differ in one coordinate alone") {
+    const glm::vec3 p(1, 2, 3);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::vec3 q = p;
+        q[axis] -= 0.5F;
+        glm::vec3 r = p + glm::vec3(4, 5, 6);
+        CAPTURE(axis);
+        CHECK(packed_triangles(scene_of({one_triangle(p, q, r), one_triangle(q, r, p), one_triangle(r, p, q)})) == 1);
+        r = p - glm::vec3(4, 5, 6);
+        CHECK(packed_triangles(scene_of({one_triangle(p, q, r), one_triangle(q, r, p), one_triangle(r, p, q)})) == 1);
+    }
+}
+
 TEST_CASE("What shows another side, lets rays pass or is an ulp aside is no duplicate") {
     CHECK(packed_triangles(scene_of({one_triangle(a, b, c), one_triangle(a, c, b)})) == 2);
     CHECK(packed_triangles(scene_of({one_triangle(a, b, c, 1), one_triangle(a, b, c, 1), one_triangle(a, b, c)})) == 3);
