@@ -3,49 +3,16 @@
 #include <algorithm>
 #include <map>
 
+#include "random_scene/judge_side.h"
 #include "random_scene/scene_files.h"
-#include "render/film_tiles.h"
 #include "render/settings_names.h"
 
 namespace diptych {
 
 namespace {
 
-constexpr int tile = 8;
 constexpr std::uint32_t oracle_seeds = 0x40000000U;  // apart from the panels', as the second stage's from the first's
 constexpr std::uint32_t second_stage_seeds = 0x80000000U;
-
-/// A renderer's runs, each with a seed of its own.
-class Side {
-public:
-    Side(std::unique_ptr<Renderer> renderer, std::uint32_t runs, std::uint32_t first_seed)
-        : renderer_(std::move(renderer)), first_seed_(first_seed), runs_(runs) {}
-
-    /// Adds samples to every run until it has so many.
-    void extend_to(std::uint32_t spp) {
-        const std::atomic<bool> cancel{false};
-        for (std::size_t run = 0; run < runs_.size() && spp > spp_; ++run) {
-            renderer_->restart(first_seed_ + std::uint32_t(run));
-            renderer_->render(spp_, spp - spp_, cancel);
-            const Film film = renderer_->film();
-            nonfinite_ += film_totals(film).nonfinite;
-            const RunMeans means = tile_means(film, tile);
-            runs_[run] = spp_ == 0 ? means : merge_means(runs_[run], spp_, means, spp - spp_);
-        }
-        spp_ = std::max(spp, spp_);
-    }
-
-    const std::vector<RunMeans>& runs() const { return runs_; }
-    std::uint32_t spp() const { return spp_; }
-    std::uint64_t nonfinite() const { return nonfinite_; }
-
-private:
-    std::unique_ptr<Renderer> renderer_;
-    std::uint32_t first_seed_;
-    std::vector<RunMeans> runs_;
-    std::uint32_t spp_ = 0;
-    std::uint64_t nonfinite_ = 0;
-};
 
 /// Everything of one scene that its comparisons share.
 struct Judged {
@@ -54,10 +21,31 @@ struct Judged {
     const Renderers& renderers;
     const JudgeOptions& options;
 
-    RenderSettings settings(Integrator integrator) const {
-        RenderSettings out = random.settings;
-        out.integrator = integrator;
+    /// The frames judged: all under integrators that resample, which may look back, and one under the others, which
+    /// cannot; none of a scene at rest.
+    std::vector<std::uint32_t> frames(Integrator integrator) const {
+        if (random.frames == 0) {
+            return {};
+        }
+        if (!resamples(integrator)) {
+            return {std::uint32_t((random.seed + std::uint64_t(integrator)) % random.frames)};
+        }
+        return all_frames();
+    }
+
+    std::vector<std::uint32_t> all_frames() const {
+        std::vector<std::uint32_t> out;
+        for (std::uint32_t frame = 0; frame < random.frames; ++frame) {
+            out.push_back(frame);
+        }
         return out;
+    }
+
+    std::unique_ptr<RandomSide> side(const Renderers::Make& make, Integrator integrator,
+                                     const std::vector<std::uint32_t>& frames, std::uint32_t seed) const {
+        RenderSettings settings = random.settings;
+        settings.integrator = integrator;
+        return std::make_unique<RandomSide>(random, scene, make, settings, frames, options.runs, seed);
     }
 };
 
@@ -75,82 +63,114 @@ RandomPair new_pair(const Judged& judged, Integrator integrator, const char* sid
     return pair;
 }
 
-Side oracle_side(const Judged& judged, std::uint32_t seed) {
-    const RenderSettings settings = judged.settings(Integrator::path);
-    const PackedScene packed = pack_scene(judged.scene, settings);  // which the oracle does not read
-    return {judged.renderers.oracle(judged.scene, packed, settings), judged.options.runs, seed + oracle_seeds};
+/// Where a side that judges all frames has this one.
+std::size_t place_in_all(const std::vector<std::uint32_t>& frames, std::size_t i) {
+    return frames.empty() ? 0 : frames[i];
 }
 
-/// The CPU under one integrator and the oracle, which may have more samples already. The number of samples follows from
-/// the noise alone, so it does not bend the p-values.
-RandomPair against_oracle(const Judged& judged, Integrator integrator, Side& oracle, std::uint32_t seed,
-                          std::uint32_t times) {
+/// The CPU under one integrator and the oracle, which judges all frames and may have more samples already. The number
+/// of samples follows from the noise alone, so it does not bend the p-values. One pair a frame, or one at rest.
+std::vector<RandomPair> against_oracle(const Judged& judged, Integrator integrator, RandomSide& oracle,
+                                       std::uint32_t seed, std::uint32_t times) {
     const JudgeOptions& options = judged.options;
-    const RenderSettings settings = judged.settings(integrator);
-    const PackedScene packed = pack_scene(judged.scene, settings);
-    Side cpu(judged.renderers.cpu(judged.scene, packed, settings), options.runs, seed);
-    RandomPair pair = new_pair(judged, integrator, "cpu", "oracle/mis");
+    const std::vector<std::uint32_t> frames = judged.frames(integrator);
+    const std::size_t count = std::max<std::size_t>(frames.size(), 1);
+    const auto cpu = judged.side(judged.renderers.cpu, integrator, frames, seed);
+    const auto compare = [&](std::size_t i, const TileTestOptions& with) {
+        return compare_runs(cpu->runs(i), oracle.runs(place_in_all(frames, i)), with);
+    };
     for (std::uint32_t spp = options.first_spp * times;; spp *= 2) {
-        cpu.extend_to(spp);
+        cpu->extend_to(spp);
         oracle.extend_to(spp);
-        const bool last = 2 * spp > options.most_spp * times;
-        if (last || compare_runs(cpu.runs(), oracle.runs(), {.resamplings = 0}).half_width_percent <=
-                        options.half_width_percent) {
+        bool enough = true;
+        for (std::size_t i = 0; i < count && enough; ++i) {
+            enough = compare(i, {.resamplings = 0}).half_width_percent <= options.half_width_percent;
+        }
+        if (enough || 2 * spp > options.most_spp * times) {
             break;
         }
     }
-    pair.comparison = compare_runs(cpu.runs(), oracle.runs());
-    pair.spp = cpu.spp();
-    pair.nonfinite = cpu.nonfinite() + oracle.nonfinite();
-    return pair;
+    std::vector<RandomPair> pairs;
+    for (std::size_t i = 0; i < count; ++i) {
+        RandomPair pair = new_pair(judged, integrator, "cpu", "oracle/mis");
+        pair.comparison = compare(i, {});
+        pair.spp = cpu->spp();
+        pair.nonfinite = cpu->nonfinite() + oracle.nonfinite();
+        if (!frames.empty()) {
+            pair.frame = frames[i];
+        }
+        pairs.push_back(pair);
+    }
+    return pairs;
 }
 
-RandomPair against_cpu(const Judged& judged, Integrator integrator, std::uint32_t seed, std::uint32_t spp) {
-    const RenderSettings settings = judged.settings(integrator);
-    const PackedScene packed = pack_scene(judged.scene, settings);
-    Side vulkan(judged.renderers.vulkan(judged.scene, packed, settings), judged.options.runs, seed);
-    Side cpu(judged.renderers.cpu(judged.scene, packed, settings), judged.options.runs, seed);
-    vulkan.extend_to(spp);
-    cpu.extend_to(spp);
-    RandomPair pair = new_pair(judged, integrator, "vulkan", std::string("cpu/") + name_of(integrator));
-    pair.comparison = compare_common_runs(vulkan.runs(), cpu.runs());
-    pair.spp = vulkan.spp();
-    pair.nonfinite = vulkan.nonfinite() + cpu.nonfinite();
-    return pair;
+std::vector<RandomPair> against_cpu(const Judged& judged, Integrator integrator, std::uint32_t seed,
+                                    std::uint32_t spp) {
+    const std::vector<std::uint32_t> frames = judged.frames(integrator);
+    const auto vulkan = judged.side(judged.renderers.vulkan, integrator, frames, seed);
+    const auto cpu = judged.side(judged.renderers.cpu, integrator, frames, seed);
+    vulkan->extend_to(spp);
+    cpu->extend_to(spp);
+    std::vector<RandomPair> pairs;
+    for (std::size_t i = 0; i < std::max<std::size_t>(frames.size(), 1); ++i) {
+        RandomPair pair = new_pair(judged, integrator, "vulkan", std::string("cpu/") + name_of(integrator));
+        pair.comparison = compare_common_runs(vulkan->runs(i), cpu->runs(i));
+        pair.spp = vulkan->spp();
+        pair.nonfinite = vulkan->nonfinite() + cpu->nonfinite();
+        if (!frames.empty()) {
+            pair.frame = frames[i];
+        }
+        pairs.push_back(pair);
+    }
+    return pairs;
 }
 
-/// One stage, or two.
+/// One stage, or two. The frames of one chain are rendered together, but each is judged by its own stages.
 template <typename Compare>
-RandomPair in_stages(const JudgeOptions& options, Compare&& compare) {
-    RandomPair first = compare(options.seed, 1U);
-    if (!suspicious(first, options)) {
+std::vector<RandomPair> in_stages(const JudgeOptions& options, Compare&& compare) {
+    std::vector<RandomPair> first = compare(options.seed, 1U);
+    const auto doubtful = [&](const RandomPair& pair) { return suspicious(pair, options); };
+    if (std::none_of(first.begin(), first.end(), doubtful)) {
         return first;
     }
-    RandomPair second = compare(options.seed + second_stage_seeds, options.second_stage);
-    second.nonfinite += first.nonfinite;
-    second.stage = 2;
-    return second;
+    const std::vector<RandomPair> second = compare(options.seed + second_stage_seeds, options.second_stage);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        if (doubtful(first[i])) {
+            const std::uint64_t nonfinite = first[i].nonfinite;
+            first[i] = second[i];
+            first[i].nonfinite += nonfinite;
+            first[i].stage = 2;
+        }
+    }
+    return first;
 }
 
 }  // namespace
+
+std::string text_of(const RandomPair& pair) {
+    const std::string frame = pair.frame ? ", frame " + std::to_string(*pair.frame) : "";
+    return pair.side + " - " + pair.reference + frame;
+}
 
 std::vector<RandomPair> compare_scene(const RandomScene& random, const std::filesystem::path& path,
                                       const Renderers& renderers, const JudgeOptions& options) {
     write_random_scene(random, path);
     const Judged judged{random, read_random_scene(random, path), renderers, options};
     std::vector<RandomPair> pairs;
-    std::map<std::uint32_t, Side> oracles;  // of each stage
+    const auto add = [&pairs](const std::vector<RandomPair>& more) { pairs.insert(pairs.end(), more.begin(), more.end()); };
+    std::map<std::uint32_t, std::unique_ptr<RandomSide>> oracles;  // of each stage
     for (const Integrator integrator : options.integrators) {
         if (renderers.oracle) {
-            pairs.push_back(in_stages(options, [&](std::uint32_t seed, std::uint32_t times) {
-                const auto oracle = oracles.find(seed);
-                Side& side = oracle != oracles.end() ? oracle->second
-                                                     : oracles.emplace(seed, oracle_side(judged, seed)).first->second;
-                return against_oracle(judged, integrator, side, seed, times);
+            add(in_stages(options, [&](std::uint32_t seed, std::uint32_t times) {
+                std::unique_ptr<RandomSide>& oracle = oracles[seed];
+                if (!oracle) {
+                    oracle = judged.side(renderers.oracle, Integrator::path, judged.all_frames(), seed + oracle_seeds);
+                }
+                return against_oracle(judged, integrator, *oracle, seed, times);
             }));
         }
         if (renderers.vulkan) {
-            pairs.push_back(in_stages(options, [&](std::uint32_t seed, std::uint32_t times) {
+            add(in_stages(options, [&](std::uint32_t seed, std::uint32_t times) {
                 return against_cpu(judged, integrator, seed, options.common_spp * times);
             }));
         }

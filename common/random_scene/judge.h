@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct RandomPair {
     std::uint64_t scene = 0;  // its seed
     std::string side;         // "cpu/path"
     std::string reference;    // "oracle/mis"
+    std::optional<std::uint32_t> frame{};  // of a scene that moves
     Integrator integrator = Integrator::path;
     TileComparison comparison;
     std::uint32_t spp = 0;        // of each run of `side`
@@ -50,7 +52,11 @@ struct RandomPair {
     PairVerdict verdict;          // judge_all's to set
 };
 
-/// Renders the scene, read from its files, on every side and compares. What looks unlikely is rendered again with seeds
+/// "cpu/restir - oracle/mis, frame 3".
+std::string text_of(const RandomPair& pair);
+
+/// Renders the scene, read from its files, on every side and compares, at every frame of its sequence where it moves:
+/// `ris` and `restir` at each, the other integrators, which look back to none, at one of them. What looks unlikely is rendered again with seeds
 /// of its own, and the second comparison stands alone, so that its p-values mean what they say.
 std::vector<RandomPair> compare_scene(const RandomScene& random, const std::filesystem::path& path,
                                       const Renderers& renderers, const JudgeOptions& options);

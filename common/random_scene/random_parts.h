@@ -39,4 +39,7 @@ void add_random_cameras(RandomScene& out, Draws draws);
 /// In a room, light is followed over more bounces.
 void draw_settings(RenderSettings& settings, bool in_room, Draws draws);
 
+/// Animations of what the scene has, and the nodes that they move.
+void add_random_motion(RandomScene& out, Draws draws);
+
 }  // namespace diptych

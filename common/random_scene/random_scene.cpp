@@ -18,4 +18,10 @@ RandomScene make_random_scene(std::uint64_t seed) {
     return out;
 }
 
+RandomScene make_moving_random_scene(std::uint64_t seed) {
+    RandomScene out = make_random_scene(seed);
+    add_random_motion(out, Draws(seed, Topic::motion));
+    return out;
+}
+
 }  // namespace diptych

@@ -37,11 +37,16 @@ JudgeOptions quick() {
     return options;
 }
 
+/// So that a failing test says how to judge its scene again.
+const char* motion_option(const RandomPair& pair) {
+    return pair.frame ? "--moving" : "--still";
+}
+
 void check_pairs(std::vector<RandomPair> pairs, std::uint64_t count, const JudgeOptions& options) {
     judge_all(pairs, options);
     for (const RandomPair& pair : pairs) {
-        INFO("diptych verify --random 1 --seed " << pair.scene << ": " << pair.side << " - " << pair.reference << ": "
-                                                 << pair.comparison.bias_percent << " % +- "
+        INFO("diptych verify --random 1 --seed " << pair.scene << " " << motion_option(pair) << ": " << text_of(pair)
+                                                 << ": " << pair.comparison.bias_percent << " % +- "
                                                  << pair.comparison.half_width_percent << ", stage " << pair.stage
                                                  << ", adjusted p " << pair.verdict.adjusted_p << ": "
                                                  << pair.verdict.reason);
@@ -53,11 +58,14 @@ void check_pairs(std::vector<RandomPair> pairs, std::uint64_t count, const Judge
     CHECK(verdict_of(pairs, options.half_width_percent) == Verdict::pass);
 }
 
-void check_scenes(std::uint64_t first, std::uint64_t count, const Renderers& renderers, const JudgeOptions& options) {
+using MakeScene = RandomScene (*)(std::uint64_t seed);
+
+void check_scenes(MakeScene make, std::uint64_t first, std::uint64_t count, const Renderers& renderers,
+                  const JudgeOptions& options) {
     const TestFolder folder;
     std::vector<RandomPair> pairs;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
-        const auto more = compare_scene(make_random_scene(seed), folder.file("scene.gltf"), renderers, options);
+        const auto more = compare_scene(make(seed), folder.file("scene.gltf"), renderers, options);
         pairs.insert(pairs.end(), more.begin(), more.end());
     }
     check_pairs(pairs, count, options);
@@ -75,15 +83,27 @@ std::uint64_t fresh_seed() {
 }  // namespace
 
 TEST_CASE("Random scenes have the oracle's means (first half)") {
-    check_scenes(1, 20, cpu_and_oracle(), quick());
+    check_scenes(make_random_scene, 1, 20, cpu_and_oracle(), quick());
 }
 
 TEST_CASE("Random scenes have the oracle's means (second half)") {
-    check_scenes(101, 20, cpu_and_oracle(), quick());
+    check_scenes(make_random_scene, 101, 20, cpu_and_oracle(), quick());
 }
 
 TEST_CASE("Thousands of fresh random scenes have the oracle's means", "[nightly]") {
-    check_scenes(fresh_seed(), 2000, cpu_and_oracle(), quick());
+    check_scenes(make_random_scene, fresh_seed(), 2000, cpu_and_oracle(), quick());
+}
+
+TEST_CASE("Moving random scenes have the oracle's means (first half)") {
+    check_scenes(make_moving_random_scene, 301, 10, cpu_and_oracle(), quick());
+}
+
+TEST_CASE("Moving random scenes have the oracle's means (second half)") {
+    check_scenes(make_moving_random_scene, 401, 10, cpu_and_oracle(), quick());
+}
+
+TEST_CASE("Thousands of fresh moving random scenes have the oracle's means", "[nightly]") {
+    check_scenes(make_moving_random_scene, fresh_seed(), 2000, cpu_and_oracle(), quick());
 }
 
 #if DIPTYCH_VULKAN
@@ -121,6 +141,6 @@ TEST_CASE("Random scenes have the CPU panel's means on the device with common se
 
 TEST_CASE("A thousand fresh random scenes have the CPU panel's means on the device", "[nightly]") {
     NEED_VULKAN();
-    check_scenes(fresh_seed(), 1000, vulkan_and_cpu(), quick());
+    check_scenes(make_random_scene, fresh_seed(), 1000, vulkan_and_cpu(), quick());
 }
 #endif
