@@ -20,7 +20,7 @@ namespace diptych {
 struct Renderers {
     using Make = std::function<std::unique_ptr<Renderer>(const Scene&, const PackedScene&, const RenderSettings&)>;
     Make cpu;
-    Make oracle;  // the CPU is compared with it, by seeds of their own
+    Make oracle;  // the CPU is compared with it, or with its own `path`, by seeds of their own
     Make vulkan;  // compared with the CPU, by common seeds
 };
 
@@ -42,7 +42,7 @@ struct JudgeOptions {
 struct RandomPair {
     std::uint64_t scene = 0;  // its seed
     std::string side;         // "cpu/path"
-    std::string reference;    // "oracle/mis"
+    std::string reference;    // "oracle/mis", "cpu/path"
     std::optional<std::uint32_t> frame{};  // of a scene that moves
     Integrator integrator = Integrator::path;
     TileComparison comparison;
@@ -55,8 +55,8 @@ struct RandomPair {
 /// "cpu/restir - oracle/mis, frame 3".
 std::string text_of(const RandomPair& pair);
 
-/// Renders the scene, read from its files, on every side and compares, at every frame of its sequence where it moves:
-/// `ris` and `restir` at each, the other integrators, which look back to none, at one of them. What looks unlikely is rendered again with seeds
+/// Renders the scene, read from its files, on every side and compares. Where it moves, `ris` and `restir` are compared
+/// with `path` at every frame, and the integrators that look back to none with the oracle at one of them. What looks unlikely is rendered again with seeds
 /// of its own, and the second comparison stands alone, so that its p-values mean what they say.
 std::vector<RandomPair> compare_scene(const RandomScene& random, const std::filesystem::path& path,
                                       const Renderers& renderers, const JudgeOptions& options);
@@ -72,11 +72,11 @@ struct ReachedPower {
     double reached_share = 1;  // of the pairs, those at most half_width_percent wide
 };
 
-/// Of the pairs whose reference is that backend.
-ReachedPower reached_power(const std::vector<RandomPair>& pairs, const std::string& reference,
+/// Of the pairs whose side is that backend: "cpu" has seeds of its own, "vulkan" its reference's. Empty: of all.
+ReachedPower reached_power(const std::vector<RandomPair>& pairs, const std::string& backend,
                            double half_width_percent);
 
-/// FAIL where a pair fails; INCONCLUSIVE where none does but fewer than nine tenths of the pairs of a reference are known well enough.
+/// FAIL where a pair fails; INCONCLUSIVE where none does but fewer than nine tenths of the pairs of a backend are known well enough.
 Verdict verdict_of(const std::vector<RandomPair>& pairs, double half_width_percent);
 
 }  // namespace diptych

@@ -302,6 +302,8 @@ void add_random_motion(RandomScene& out, Draws draws) {
     MotionMaker(out, draws).add_all();
     // Without it no frame looks back; still scenes leave it out more often.
     out.settings.resampling.temporal |= draws.chance(0.6);
+    // Frames are reused at the first vertex alone; more of them add noise.
+    out.settings.max_depth = std::min(out.settings.max_depth, 3U);
 }
 
 }  // namespace diptych
