@@ -20,7 +20,8 @@ constexpr const char* generate_examples = R"(Examples:
   diptych generate --list
   diptych generate cornell -o cornell.gltf
   diptych generate many-lights -o street.glb --count 100000 --seed 7
-  diptych generate random -o random.gltf --seed 7)";
+  diptych generate random -o random.gltf --seed 7
+  diptych generate random -o random.gltf --seed 7 --moving)";
 
 constexpr const char* random_name = "random";
 
@@ -30,6 +31,7 @@ struct GenerateArguments {
     GenerateOptions generate;
     bool sets_count = false;
     bool sets_seed = false;
+    bool moving = false;
     bool list = false;
     bool json = false;
 };
@@ -53,6 +55,11 @@ int list_scenes(bool json) {
 }
 
 /// Returns what `diptych render` wants beside the file.
+std::string write_random(const GenerateArguments& options) {
+    const std::uint64_t seed = options.generate.seed;
+    return write_random_scene(options.moving ? make_moving_random_scene(seed) : make_random_scene(seed), options.output);
+}
+
 std::string write_generated(const GenerateArguments& options) {
     const GeneratedScene generated = generate_scene(options.name, options.generate);
     write_gltf(generated.scene, options.output);
@@ -71,6 +78,9 @@ int run_generate(const GenerateArguments& options) {
     if ((options.sets_count && !street) || (options.sets_seed && !street && !random)) {
         throw Error(fmt::format("generate {}: --count is for many-lights alone, --seed for it and random", options.name));
     }
+    if (options.moving && !random) {
+        throw Error(fmt::format("generate {}: --moving is for random alone", options.name));
+    }
     if (options.output.empty()) {
         throw Error(fmt::format("generate {}: wants a file to write, -o FILE", options.name));
     }
@@ -82,8 +92,7 @@ int run_generate(const GenerateArguments& options) {
     if (extension == ".gltf") {
         check_file_can_be_created(std::filesystem::path(options.output).replace_extension(".bin"));
     }
-    const std::string arguments = random ? write_random_scene(make_random_scene(options.generate.seed), options.output)
-                                         : write_generated(options);
+    const std::string arguments = random ? write_random(options) : write_generated(options);
     if (options.json) {
         print_json({{"name", options.name}, {"output", options.output}, {"recommended_arguments", arguments}});
     } else {
@@ -105,6 +114,7 @@ void add_generate(CLI::App& app, Run& run) {
                              ->capture_default_str();
     CLI::Option* seed =
         command->add_option("--seed", options->generate.seed, "many-lights: which street; random: which scene")->capture_default_str();
+    command->add_flag("--moving", options->moving, "random: nodes, cameras and lights of the scene move and switch");
     command->add_flag("--list", options->list, "Say which scenes there are");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     command->footer(generate_examples);

@@ -138,6 +138,9 @@ int run_verify(VerifyOptions options) {
     if (!options.shrink) {
         throw Error("--no-shrink: goes with --random");
     }
+    if (options.random_moving) {
+        throw Error("--moving, --still: go with --random");
+    }
     if (options.arguments.request.scene.empty()) {
         throw Error("verify: wants a scene, .gltf or .glb, or --random N");
     }

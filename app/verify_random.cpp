@@ -31,7 +31,7 @@ constexpr double shrinking_p = 1e-5;      // below which a smaller scene counts 
 constexpr const char* allowed[] = {"--random",         "--seed",      "--backends", "--integrators",
                                    "--alpha",          "--runs",      "--device",   "--threads",
                                    "--max-half-width", "--validation", "--json",     "--output",
-                                   "--require-pass",   "--shrink"};
+                                   "--require-pass",   "--shrink",    "--moving"};
 
 bool given(const VerifyOptions& options, const char* name) {
     return options.command->get_option(name)->count() > 0;
@@ -117,6 +117,11 @@ struct Failure {
     std::string command;  // that renders it
 };
 
+/// Every second scene moves unless one kind is asked for.
+RandomScene scene_of(std::uint64_t seed, const VerifyOptions& options) {
+    return options.random_moving.value_or(seed % 2 == 0) ? make_moving_random_scene(seed) : make_random_scene(seed);
+}
+
 /// Whether the failing pair fails on this scene too: by one test of it, with few enough samples for a hundred trials.
 bool fails_alike(const RandomScene& random, const RandomPair& failed, const Renderers& renderers, JudgeOptions options,
                  const std::filesystem::path& scratch) {
@@ -124,9 +129,12 @@ bool fails_alike(const RandomScene& random, const RandomPair& failed, const Rend
     Renderers wanted = renderers;
     (failed.side.starts_with("cpu") ? wanted.vulkan : wanted.oracle) = {};
     try {
-        const RandomPair pair = compare_scene(random, scratch, wanted, options).front();
-        const TileComparison& c = pair.comparison;
-        return std::min({c.global_p, c.fisher_p, c.local_p}) < shrinking_p || pair.nonfinite > 0;
+        const std::vector<RandomPair> pairs = compare_scene(random, scratch, wanted, options);
+        return std::any_of(pairs.begin(), pairs.end(), [&](const RandomPair& pair) {
+            const TileComparison& c = pair.comparison;
+            const bool fails = std::min({c.global_p, c.fisher_p, c.local_p}) < shrinking_p || pair.nonfinite > 0;
+            return fails && pair.frame == failed.frame;
+        });
     } catch (const Error&) {
         return false;  // too small to be a scene
     }
@@ -134,7 +142,7 @@ bool fails_alike(const RandomScene& random, const RandomPair& failed, const Rend
 
 Failure shrink_failure(const RandomPair& failed, const VerifyOptions& options, const Renderers& renderers,
                        const JudgeOptions& judge_with, const ScratchFolder& scratch) {
-    RandomScene random = make_random_scene(failed.scene);
+    RandomScene random = scene_of(failed.scene, options);
     random.settings.integrator = failed.integrator;
     const StillFails still_fails = [&](const RandomScene& smaller) {
         return fails_alike(smaller, failed, renderers, judge_with, scratch.file("smaller.gltf"));
@@ -166,14 +174,16 @@ std::vector<RandomPair> failing_scenes(const std::vector<RandomPair>& pairs) {
 void print_failure(const Failure& failure) {
     const RandomPair& pair = failure.pair;
     const TileComparison& c = pair.comparison;
-    fmt::print("seed {}: {} - {}: {:.3g} % [{:.3g}, {:.3g}], adjusted p {:.2g}: {}\n  {}: {}\n", pair.scene,
-               pair.side, pair.reference, c.bias_percent, c.ci95_percent[0], c.ci95_percent[1], pair.verdict.adjusted_p,
+    fmt::print("seed {}: {}: {:.3g} % [{:.3g}, {:.3g}], adjusted p {:.2g}: {}\n  {}: {}\n", pair.scene, text_of(pair),
+               c.bias_percent, c.ci95_percent[0], c.ci95_percent[1], pair.verdict.adjusted_p,
                pair.verdict.reason, failure.file, failure.command);
 }
 
 nlohmann::ordered_json pair_json(const RandomPair& pair) {
     const TileComparison& c = pair.comparison;
+    const nlohmann::ordered_json frame = pair.frame ? nlohmann::ordered_json(*pair.frame) : nlohmann::ordered_json();
     return {{"seed", pair.scene},
+            {"frame", frame},
             {"a", pair.side},
             {"b", pair.reference},
             {"spp", pair.spp},
@@ -243,7 +253,7 @@ void print_report(const VerifyOptions& options, const JudgeOptions& judged_with,
         print_failure(failure);
     }
     fmt::print("{} scenes from seed {}, {:.0f} s\n", report.scenes, options.seed, report.seconds);
-    print_power("cpu - oracle", report.oracle_power, judged_with.half_width_percent);
+    print_power("cpu - oracle or path", report.oracle_power, judged_with.half_width_percent);
     print_power("vulkan - cpu, common seeds", report.common_power, judged_with.half_width_percent);
     fmt::print("{}\n", name_of(report.verdict));
 }
@@ -254,9 +264,11 @@ void add_random_option(CLI::App& command, VerifyOptions& options) {
     command
         .add_option("--random", options.random,
                     "Instead of a scene: so many scenes drawn at random, from --seed on, each under five integrators: cpu "
-                    "against the oracle, vulkan against cpu from the same random numbers. One that fails is shrunk and "
-                    "written, into -o")
+                    "against the oracle, vulkan against cpu from the same random numbers. Those of even seeds move, and "
+                    "ris and restir are judged at each of five frames. One that fails is shrunk and written, into -o")
         ->check(CLI::Range(1U, 1U << 30U));
+    command.add_flag("--moving,!--still", options.random_moving,
+                     "Of --random: only scenes that move, or only those that stand still; by default every second one moves");
     command.add_flag("--shrink,!--no-shrink", options.shrink,
                      "Of --random: make scenes that fail smaller before they are written; on by default");
 }
@@ -280,7 +292,7 @@ int verify_random(const VerifyOptions& options) {
             const std::uint64_t seed = std::uint64_t(options.seed) + report.scenes;
             line.begin(fmt::format("seed {}", seed));
             const std::vector<RandomPair> pairs =
-                compare_scene(make_random_scene(seed), scratch.file("scene.gltf"), renderers, judged_with);
+                compare_scene(scene_of(seed, options), scratch.file("scene.gltf"), renderers, judged_with);
             report.pairs.insert(report.pairs.end(), pairs.begin(), pairs.end());
         }
     }
@@ -291,8 +303,8 @@ int verify_random(const VerifyOptions& options) {
             report.failures.push_back(shrink_failure(failed, options, renderers, judged_with, scratch));
         }
     }
-    report.oracle_power = reached_power(report.pairs, "oracle", judged_with.half_width_percent);
-    report.common_power = reached_power(report.pairs, "cpu", judged_with.half_width_percent);
+    report.oracle_power = reached_power(report.pairs, "cpu", judged_with.half_width_percent);
+    report.common_power = reached_power(report.pairs, "vulkan", judged_with.half_width_percent);
     report.verdict = verdict_of(report.pairs, judged_with.half_width_percent);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     print_report(options, judged_with, report);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "error.h"
 #include "image/image_file.h"
 #include "render/settings_names.h"
@@ -49,6 +51,17 @@ std::string resampling_arguments(const ResamplingSettings& s) {
         name_of(s.visibility));
 }
 
+/// Cameras that hang in nodes come last in the file.
+void put_in_order(std::vector<Camera>& read, const std::vector<Camera>& drawn) {
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        const auto found = std::find_if(read.begin(), read.end(), [&](const Camera& c) { return c.name == drawn[i].name; });
+        if (found == read.end()) {
+            throw Error("camera '" + drawn[i].name + "' was written but not read back");
+        }
+        std::swap(read[i], *found);
+    }
+}
+
 }  // namespace
 
 std::string write_random_scene(const RandomScene& random, const std::filesystem::path& path) {
@@ -61,8 +74,11 @@ std::string write_random_scene(const RandomScene& random, const std::filesystem:
     const RenderSettings& s = random.settings;
     std::string out = fmt::format(
         "--size {}x{} --camera {} --integrator {} --brdf {} --normal-maps {} --sampler {} --mis {} --max-depth {}{}",
-        s.width, s.height, s.camera, name_of(s.integrator), name_of(s.brdf), name_of(s.normal_maps), name_of(s.sampler),
+        s.width, s.height, random.scene.cameras[std::size_t(s.camera)].name, name_of(s.integrator), name_of(s.brdf), name_of(s.normal_maps), name_of(s.sampler),
         name_of(s.mis), s.max_depth, s.generic ? " --generic" : "");
+    if (random.frames > 0) {
+        out += fmt::format(" --frames {} --fps {}", random.frames, random_fps);
+    }
     out += sky_arguments(random, path);
     const Camera& camera = random.scene.cameras[std::size_t(s.camera)];
     if (camera.lens_radius > 0) {
@@ -85,6 +101,7 @@ Scene read_random_scene(const RandomScene& random, const std::filesystem::path& 
     scene.environment.kind = sky.kind;
     scene.environment.scale = sky.scale;
     scene.environment.rotation = sky.rotation;
+    put_in_order(scene.cameras, random.scene.cameras);
     const Camera& lens = random.scene.cameras[std::size_t(random.settings.camera)];
     Camera& camera = scene.cameras.at(std::size_t(random.settings.camera));
     camera.lens_radius = lens.lens_radius;

@@ -42,18 +42,46 @@ bool drop_emission(Material& material) {
 }
 
 template <typename Part>
-void add_each(std::vector<Drop>& drops, std::vector<Part> Scene::*list) {
-    // From the last, so that the places of those before stay.
-    drops.push_back([list](RandomScene& r) { return clear(r.scene.*list); });
+bool erase(std::vector<Part>& parts, std::size_t i) {
+    if (i >= parts.size()) {
+        return false;
+    }
+    parts.erase(parts.begin() + std::ptrdiff_t(i));
+    return true;
+}
+
+bool drop_light(Scene& scene, std::size_t i) {
+    const auto of_light = [](const Channel& c) { return c.property == AnimatedProperty::light_intensity; };
+    for (Animation& animation : scene.animations) {
+        std::erase_if(animation.channels, [&](const Channel& c) { return of_light(c) && c.target == int(i); });
+        for (Channel& channel : animation.channels) {
+            channel.target -= of_light(channel) && channel.target > int(i) ? 1 : 0;
+        }
+    }
+    return erase(scene.lights, i);
+}
+
+bool moves_node(const Channel& channel) {
+    return channel.property == AnimatedProperty::translation || channel.property == AnimatedProperty::rotation ||
+           channel.property == AnimatedProperty::scale;
+}
+
+/// From the last part, so that the places of those before stay.
+void add_part_drops(std::vector<Drop>& drops) {
+    drops.emplace_back([](RandomScene& r) { return clear(r.scene.animations); });
+    for (std::size_t i = 16; i-- > 0;) {
+        for (const std::size_t clip : {0U, 1U}) {
+            drops.emplace_back([clip, i](RandomScene& r) {
+                return clip < r.scene.animations.size() && erase(r.scene.animations[clip].channels, i);
+            });
+        }
+    }
     for (std::size_t i = 8; i-- > 0;) {
-        drops.push_back([list, i](RandomScene& r) {
-            std::vector<Part>& parts = r.scene.*list;
-            if (i >= parts.size()) {
-                return false;
-            }
-            parts.erase(parts.begin() + std::ptrdiff_t(i));
-            return true;
-        });
+        drops.emplace_back([i](RandomScene& r) { return drop_light(r.scene, i); });
+    }
+    drops.emplace_back([](RandomScene& r) { return clear(r.scene.instances); });
+    for (std::size_t i = 8; i-- > 0;) {
+        drops.emplace_back([i](RandomScene& r) { return erase(r.scene.instances, i); });
     }
 }
 
@@ -102,8 +130,7 @@ void add_primitive_drops(std::vector<Drop>& drops) {
 
 std::vector<Drop> all_drops() {
     std::vector<Drop> drops;
-    add_each(drops, &Scene::lights);
-    add_each(drops, &Scene::instances);
+    add_part_drops(drops);
     drops.emplace_back([](RandomScene& r) { return set(r.scene.environment.kind, EnvironmentKind::none); });
     drops.emplace_back([](RandomScene& r) { return set(r.settings.max_depth, 1U); });
     drops.emplace_back([](RandomScene& r) {
@@ -127,8 +154,19 @@ bool shows_something(const RandomScene& random) {
 }  // namespace
 
 bool drop_nodes(Scene& scene) {
+    for (const Animation& animation : scene.animations) {
+        if (std::any_of(animation.channels.begin(), animation.channels.end(), moves_node)) {
+            return false;
+        }
+    }
     for (Instance& instance : scene.instances) {
         instance.node = none;
+    }
+    for (PunctualLight& light : scene.lights) {
+        light.node = none;
+    }
+    for (Camera& camera : scene.cameras) {
+        camera.node = none;
     }
     return clear(scene.nodes);
 }

@@ -10,10 +10,10 @@ namespace diptych {
 /// Whether a scene still shows the fault.
 using StillFails = std::function<bool(const RandomScene&)>;
 
-/// Instances that hang in nodes leave them: their matrices say the same. False where there are no nodes.
+/// What hangs in nodes leaves them: its matrix says the same. False where there are no nodes, or an animation moves one.
 bool drop_nodes(Scene& scene);
 
-/// Drops one part after another (instances, lights, the sky, textures, factors of materials, vertex attributes, depth,
+/// Drops one part after another (animations, instances, lights, the sky, textures, factors of materials, vertex attributes, depth,
 /// the lens) as long as the scene fails without it, until nothing can be dropped or `most_trials` scenes were tried.
 RandomScene shrink(RandomScene failing, const StillFails& still_fails, int most_trials = 200);
 

@@ -119,28 +119,43 @@ Renderers vulkan_and_cpu() {
     return out;
 }
 
-}  // namespace
-
-TEST_CASE("Random scenes have the CPU panel's means on the device with common seeds") {
-    NEED_VULKAN();
-    constexpr std::uint64_t count = 6;
+/// A driver on the CPU takes seconds to compile a pipeline; generic ones it compiles once and keeps.
+void check_on_device(std::vector<RandomScene> scenes, Integrator integrator) {
     const TestFolder folder;
     std::vector<RandomPair> pairs;
     JudgeOptions options = quick();
     options.runs = 8;
-    for (std::uint64_t i = 0; i < count; ++i) {
-        // A driver on the CPU takes seconds to compile a pipeline; generic ones it compiles once and keeps.
-        RandomScene random = make_random_scene(201 + i);
+    options.integrators = {integrator};
+    for (RandomScene& random : scenes) {
         random.settings.generic = true;
-        options.integrators = {i % 2 == 0 ? Integrator::path : Integrator::restir};
         const auto more = compare_scene(random, folder.file("scene.gltf"), vulkan_and_cpu(), options);
         pairs.insert(pairs.end(), more.begin(), more.end());
     }
-    check_pairs(pairs, count, options);
+    check_pairs(pairs, scenes.size(), options);
+}
+
+}  // namespace
+
+TEST_CASE("Random scenes have the CPU panel's means on the device with common seeds") {
+    NEED_VULKAN();
+    check_on_device({make_random_scene(201), make_random_scene(203), make_random_scene(205)}, Integrator::path);
+    check_on_device({make_random_scene(202), make_random_scene(204), make_random_scene(206)}, Integrator::restir);
+}
+
+TEST_CASE("Moving random scenes have the CPU panel's means on the device with common seeds") {
+    NEED_VULKAN();
+    check_on_device({make_moving_random_scene(501), make_moving_random_scene(502), make_moving_random_scene(503),
+                     make_moving_random_scene(504)},
+                    Integrator::restir);
 }
 
 TEST_CASE("A thousand fresh random scenes have the CPU panel's means on the device", "[nightly]") {
     NEED_VULKAN();
     check_scenes(make_random_scene, fresh_seed(), 1000, vulkan_and_cpu(), quick());
+}
+
+TEST_CASE("Hundreds of fresh moving random scenes have the CPU panel's means on the device", "[nightly]") {
+    NEED_VULKAN();
+    check_scenes(make_moving_random_scene, fresh_seed(), 500, vulkan_and_cpu(), quick());
 }
 #endif
