@@ -84,7 +84,7 @@ TEST_CASE("verify judges random scenes and tells the power reached", "[app]") {
     const TemporaryFolder folder;
     const std::vector<std::string> command = {"verify", "--random", "2",          "--seed", "7",    "--backends",
                                               "cpu",    "--json",   "--integrators", "path",   "--runs", "8",
-                                              "--max-half-width", "4"};
+                                              "--max-half-width", "4",  "--still"};
     const ProcessResult result = run_diptych(folder, command);
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
@@ -103,6 +103,44 @@ TEST_CASE("verify judges random scenes and tells the power reached", "[app]") {
     CHECK(json.at("vulkan_against_cpu").at("comparisons") == 0);
 }
 
+TEST_CASE("verify judges moving random scenes at every frame", "[app]") {
+    const TemporaryFolder folder;
+    const ProcessResult result =
+        run_diptych(folder, {"verify", "--random", "1", "--seed", "302", "--backends", "cpu", "--json", "--integrators",
+                             "path,restir", "--runs", "8", "--max-half-width", "8"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const auto json = nlohmann::json::parse(result.out);
+    REQUIRE(json.at("pairs").size() == 6);
+    CHECK(json.at("pairs")[0].at("b") == "oracle/mis");
+    for (int frame = 0; frame < 5; ++frame) {
+        const auto& pair = json.at("pairs")[std::size_t(1 + frame)];
+        CHECK(pair.at("frame") == frame);
+        CHECK(pair.at("a") == "cpu/restir");
+        CHECK(pair.at("b") == "cpu/path");
+    }
+}
+
+TEST_CASE("generate random writes a scene that moves and plays", "[app]") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("random.gltf");
+    const ProcessResult written =
+        run_diptych(folder, {"generate", "random", "--seed", "5", "--moving", "-o", file, "--json"});
+    REQUIRE(written.exit_code == 0);
+    const std::string arguments = nlohmann::json::parse(written.out).at("recommended_arguments");
+    std::vector<std::string> command{"render", file};
+    const std::vector<std::string> words = words_of(arguments);
+    command.insert(command.end(), words.begin(), words.end());
+    command.insert(command.end(), {"--spp", "2", "--backend", "cpu", "-o", folder.file("picture.#.exr")});
+    const ProcessResult rendered = run_diptych(folder, command);
+    INFO(rendered.err);
+    REQUIRE(rendered.exit_code == 0);
+    const Image first = read_image(folder.file("picture.0.exr")).color;
+    const Image last = read_image(folder.file("picture.4.exr")).color;
+    CHECK(first.data != last.data);
+    CHECK_FALSE(std::filesystem::exists(folder.file("picture.5.exr")));
+}
+
 TEST_CASE("verify refuses what does not go with random scenes", "[app]") {
     const TemporaryFolder folder;
     const auto refused = [&](const std::vector<std::string>& arguments, const std::string& reason) {
@@ -116,5 +154,7 @@ TEST_CASE("verify refuses what does not go with random scenes", "[app]") {
     refused({"verify", "--random", "1", "--backends", "oracle"}, "--random compares cpu and vulkan");
     refused({"verify"}, "wants a scene");
     refused({"verify", "scene.gltf", "--no-shrink"}, "--random");
+    refused({"verify", "scene.gltf", "--moving"}, "--random");
+    refused({"generate", "cornell", "-o", folder.file("a.gltf"), "--moving"}, "--moving is for random alone");
     refused({"generate", "random", "-o", folder.file("a.gltf"), "--count", "3"}, "--count is for many-lights alone");
 }

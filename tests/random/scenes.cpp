@@ -95,11 +95,11 @@ TEST_CASE("Thousands of fresh random scenes have the oracle's means", "[nightly]
 }
 
 TEST_CASE("Moving random scenes have the oracle's means (first half)") {
-    check_scenes(make_moving_random_scene, 301, 4, cpu_and_oracle(), quick());
+    check_scenes(make_moving_random_scene, 301, 6, cpu_and_oracle(), quick());
 }
 
 TEST_CASE("Moving random scenes have the oracle's means (second half)") {
-    check_scenes(make_moving_random_scene, 401, 4, cpu_and_oracle(), quick());
+    check_scenes(make_moving_random_scene, 401, 6, cpu_and_oracle(), quick());
 }
 
 TEST_CASE("Thousands of fresh moving random scenes have the oracle's means", "[nightly]") {
