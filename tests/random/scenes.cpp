@@ -42,6 +42,13 @@ const char* motion_option(const RandomPair& pair) {
     return pair.frame ? "--moving" : "--still";
 }
 
+/// Five frames cost more, and what looks back to a wrong moment moves a mean by far more than 3 %.
+JudgeOptions quick_moving() {
+    JudgeOptions options = quick();
+    options.half_width_percent = 3;
+    return options;
+}
+
 void check_pairs(std::vector<RandomPair> pairs, std::uint64_t count, const JudgeOptions& options) {
     judge_all(pairs, options);
     for (const RandomPair& pair : pairs) {
@@ -95,11 +102,11 @@ TEST_CASE("Thousands of fresh random scenes have the oracle's means", "[nightly]
 }
 
 TEST_CASE("Moving random scenes have the oracle's means (first half)") {
-    check_scenes(make_moving_random_scene, 301, 6, cpu_and_oracle(), quick());
+    check_scenes(make_moving_random_scene, 301, 7, cpu_and_oracle(), quick_moving());
 }
 
 TEST_CASE("Moving random scenes have the oracle's means (second half)") {
-    check_scenes(make_moving_random_scene, 401, 6, cpu_and_oracle(), quick());
+    check_scenes(make_moving_random_scene, 401, 7, cpu_and_oracle(), quick_moving());
 }
 
 TEST_CASE("Thousands of fresh moving random scenes have the oracle's means", "[nightly]") {
@@ -144,9 +151,7 @@ TEST_CASE("Random scenes have the CPU panel's means on the device with common se
 
 TEST_CASE("Moving random scenes have the CPU panel's means on the device with common seeds") {
     NEED_VULKAN();
-    check_on_device({make_moving_random_scene(501), make_moving_random_scene(502), make_moving_random_scene(503),
-                     make_moving_random_scene(504)},
-                    Integrator::restir);
+    check_on_device({make_moving_random_scene(501), make_moving_random_scene(502)}, Integrator::restir);
 }
 
 TEST_CASE("A thousand fresh random scenes have the CPU panel's means on the device", "[nightly]") {
