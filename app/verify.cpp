@@ -138,7 +138,7 @@ int run_verify(VerifyOptions options) {
     if (!options.shrink) {
         throw Error("--no-shrink: goes with --random");
     }
-    if (options.random_moving) {
+    if (options.moving || options.still) {
         throw Error("--moving, --still: go with --random");
     }
     if (options.arguments.request.scene.empty()) {

@@ -36,7 +36,8 @@ struct VerifyOptions {
     bool paired = false;        // path by path instead; see verify_paired.h
     std::uint32_t random = 0;   // so many random scenes instead; see verify_random.h
     bool shrink = true;         // a random scene that fails
-    std::optional<bool> random_moving;  // all of them move, or none; else every second one
+    bool moving = false;        // all random scenes move
+    bool still = false;         // or none; else every second one
     std::string output;
     bool json = false;
     const CLI::App* command = nullptr;  // as it was typed, for a message that says what to run

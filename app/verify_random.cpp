@@ -31,7 +31,7 @@ constexpr double shrinking_p = 1e-5;      // below which a smaller scene counts 
 constexpr const char* allowed[] = {"--random",         "--seed",      "--backends", "--integrators",
                                    "--alpha",          "--runs",      "--device",   "--threads",
                                    "--max-half-width", "--validation", "--json",     "--output",
-                                   "--require-pass",   "--shrink",    "--moving"};
+                                   "--require-pass",   "--shrink",    "--moving",   "--still"};
 
 bool given(const VerifyOptions& options, const char* name) {
     return options.command->get_option(name)->count() > 0;
@@ -119,7 +119,8 @@ struct Failure {
 
 /// Every second scene moves unless one kind is asked for.
 RandomScene scene_of(std::uint64_t seed, const VerifyOptions& options) {
-    return options.random_moving.value_or(seed % 2 == 0) ? make_moving_random_scene(seed) : make_random_scene(seed);
+    const bool moves = options.moving || (!options.still && seed % 2 == 0);
+    return moves ? make_moving_random_scene(seed) : make_random_scene(seed);
 }
 
 /// Whether the failing pair fails on this scene too: by one test of it, with few enough samples for a hundred trials.
@@ -267,8 +268,9 @@ void add_random_option(CLI::App& command, VerifyOptions& options) {
                     "against the oracle, vulkan against cpu from the same random numbers. Those of even seeds move, and "
                     "ris and restir are judged at each of five frames. One that fails is shrunk and written, into -o")
         ->check(CLI::Range(1U, 1U << 30U));
-    command.add_flag("--moving,!--still", options.random_moving,
-                     "Of --random: only scenes that move, or only those that stand still; by default every second one moves");
+    CLI::Option* moving =
+        command.add_flag("--moving", options.moving, "Of --random: let all scenes move, not every second one");
+    command.add_flag("--still", options.still, "Of --random: let none move")->excludes(moving);
     command.add_flag("--shrink,!--no-shrink", options.shrink,
                      "Of --random: make scenes that fail smaller before they are written; on by default");
 }

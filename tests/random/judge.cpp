@@ -31,6 +31,58 @@ Renderers cpu_twice(float factor) {
     return out;
 }
 
+/// The CPU panel, told that the frame before had this frame's lights.
+class ForgetsLights final : public Renderer {
+public:
+    explicit ForgetsLights(std::unique_ptr<Renderer> inner) : inner_(std::move(inner)) {}
+
+    void move_to(const PackedScene& moment) override {
+        wrong_ = std::make_unique<PackedScene>(moment);
+        wrong_->previous_punctual_lights = wrong_->punctual_lights;
+        wrong_->previous_emissive_triangles = wrong_->emissive_triangles;
+        wrong_->revisions.previous_punctual_lights = wrong_->revisions.previous_emissive_triangles = 0;
+        inner_->move_to(*wrong_);
+        shown_ = std::move(wrong_);  // which inner_ refers to
+    }
+    std::string backend() const override { return inner_->backend(); }
+    std::string device() const override { return inner_->device(); }
+    RendererCosts costs() const override { return inner_->costs(); }
+    void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
+        inner_->render(first, count, cancel);
+    }
+    void restart(std::uint32_t seed) override { inner_->restart(seed); }
+    void clear_film() override { inner_->clear_film(); }
+    double device_seconds() const override { return inner_->device_seconds(); }
+    Film film() const override { return inner_->film(); }
+    TraversalBench bench_traversal(std::uint32_t samples) override { return inner_->bench_traversal(samples); }
+
+private:
+    std::unique_ptr<PackedScene> shown_;
+    std::unique_ptr<PackedScene> wrong_;
+    std::unique_ptr<Renderer> inner_;  // goes first
+};
+
+/// Of one moving scene under restir; the oracle is not asked.
+std::vector<RandomPair> judged_moving(std::uint64_t seed, bool forgets) {
+    const TestFolder folder;
+    JudgeOptions options;
+    options.integrators = {Integrator::restir};
+    options.half_width_percent = 3;
+    options.most_spp = 32;
+    Renderers renderers = cpu_twice(1);
+    renderers.cpu = [forgets](const Scene&, const PackedScene& packed, const RenderSettings&) {
+        std::unique_ptr<Renderer> right = make_cpu_renderer(packed, 1);
+        if (forgets) {
+            right = std::make_unique<ForgetsLights>(std::move(right));
+        }
+        return right;
+    };
+    std::vector<RandomPair> pairs =
+        compare_scene(make_moving_random_scene(seed), folder.file("scene.gltf"), renderers, options);
+    judge_all(pairs, options);
+    return pairs;
+}
+
 std::vector<RandomPair> judged(std::uint64_t seeds, float factor) {
     const TestFolder folder;
     JudgeOptions options;
@@ -64,5 +116,15 @@ TEST_CASE("Random scenes show nothing between equal sides") {
         INFO("seed " << pair.scene << ": adjusted p " << pair.verdict.adjusted_p);
         CHECK(pair.verdict.verdict != Verdict::fail);
         CHECK(pair.comparison.half_width_percent > 0);
+    }
+}
+
+TEST_CASE("Moving random scenes show a frame before that has this frame's lights") {
+    constexpr std::uint64_t seed = 301;  // a directional light turns
+    for (const bool forgets : {false, true}) {
+        const std::vector<RandomPair> pairs = judged_moving(seed, forgets);
+        REQUIRE(pairs.size() == random_frames);
+        CHECK((verdict_of(pairs, 3) == Verdict::fail) == forgets);
+        CHECK(pairs[0].verdict.verdict != Verdict::fail);  // which looks back to nothing
     }
 }
