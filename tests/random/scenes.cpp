@@ -42,10 +42,12 @@ const char* motion_option(const RandomPair& pair) {
     return pair.frame ? "--moving" : "--still";
 }
 
-/// Five frames cost more, and what looks back to a wrong moment moves a mean by far more than 3 %.
+/// Five frames cost more, and what looks back to a wrong moment moves a mean by far more than 3 %. Of 39 tests a scene
+/// one is often below 0.01, and a second stage is all of the cost then.
 JudgeOptions quick_moving() {
     JudgeOptions options = quick();
     options.half_width_percent = 3;
+    options.suspicious_p = 1e-3;
     return options;
 }
 
@@ -102,11 +104,11 @@ TEST_CASE("Thousands of fresh random scenes have the oracle's means", "[nightly]
 }
 
 TEST_CASE("Moving random scenes have the oracle's means (first half)") {
-    check_scenes(make_moving_random_scene, 301, 7, cpu_and_oracle(), quick_moving());
+    check_scenes(make_moving_random_scene, 301, 5, cpu_and_oracle(), quick_moving());
 }
 
 TEST_CASE("Moving random scenes have the oracle's means (second half)") {
-    check_scenes(make_moving_random_scene, 401, 7, cpu_and_oracle(), quick_moving());
+    check_scenes(make_moving_random_scene, 401, 5, cpu_and_oracle(), quick_moving());
 }
 
 TEST_CASE("Thousands of fresh moving random scenes have the oracle's means", "[nightly]") {
