@@ -88,6 +88,7 @@ std::vector<RandomPair> judged(std::uint64_t seeds, float factor) {
     JudgeOptions options;
     options.integrators = {Integrator::path};
     options.half_width_percent = 2;
+    options.first_spp = 32;  // fewer leave the runs of scene 4 too skewed for a FAIL
     options.most_spp = 64;
     std::vector<RandomPair> pairs;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
