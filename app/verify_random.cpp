@@ -126,6 +126,7 @@ RandomScene scene_of(std::uint64_t seed, const VerifyOptions& options) {
 /// Whether the failing pair fails on this scene too: by one test of it, with few enough samples for a hundred trials.
 bool fails_alike(const RandomScene& random, const RandomPair& failed, const Renderers& renderers, JudgeOptions options,
                  const std::filesystem::path& scratch) {
+    options.third_stage = 1;
     options.integrators = {failed.integrator};
     Renderers wanted = renderers;
     (failed.side.starts_with("cpu") ? wanted.vulkan : wanted.oracle) = {};

@@ -14,6 +14,7 @@ namespace {
 constexpr std::uint32_t oracle_seeds = 0x40000000U;  // apart from the panels', as the second stage's from the first's
 constexpr std::uint32_t path_seeds = 0x20000000U;    // where it is a reference
 constexpr std::uint32_t second_stage_seeds = 0x80000000U;
+constexpr std::uint32_t third_stage_seeds = 0x10000000U;
 
 /// Everything of one scene that its comparisons share.
 struct Judged {
@@ -46,9 +47,9 @@ struct Judged {
     }
 };
 
-bool suspicious(const RandomPair& pair, const JudgeOptions& options) {
+bool is_below(const RandomPair& pair, double p) {
     const TileComparison& c = pair.comparison;
-    return std::min({c.global_p, c.fisher_p, c.local_p}) < options.suspicious_p || c.unequal > 0;
+    return std::min({c.global_p, c.fisher_p, c.local_p}) < p || c.unequal > 0;
 }
 
 RandomPair new_pair(const Judged& judged, Integrator integrator, const char* side, const std::string& reference) {
@@ -136,24 +137,39 @@ std::vector<RandomPair> against_cpu(const Judged& judged, Integrator integrator,
     return pairs;
 }
 
-/// One stage, or two. The frames of one chain are rendered together, but each is judged by its own stages.
+/// After a stage with a p-value below `begins_below`.
+struct Stage {
+    double begins_below;
+    std::uint32_t seeds;
+    std::uint32_t times;  // the first stage's samples
+};
+
+/// The frames of one chain are rendered together, but each is judged by its own stages.
 template <typename Compare>
 std::vector<RandomPair> in_stages(const JudgeOptions& options, Compare&& compare) {
-    std::vector<RandomPair> first = compare(options.seed, 1U);
-    const auto doubtful = [&](const RandomPair& pair) { return suspicious(pair, options); };
-    if (std::none_of(first.begin(), first.end(), doubtful)) {
-        return first;
-    }
-    const std::vector<RandomPair> second = compare(options.seed + second_stage_seeds, options.second_stage);
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        if (doubtful(first[i])) {
-            const std::uint64_t nonfinite = first[i].nonfinite;
-            first[i] = second[i];
-            first[i].nonfinite += nonfinite;
-            first[i].stage = 2;
+    std::vector<RandomPair> pairs = compare(options.seed, 1U);
+    const Stage stages[] = {{options.suspicious_p, second_stage_seeds, options.second_stage},
+                            {options.grave_p, third_stage_seeds, options.third_stage}};
+    int before = 1;
+    for (const Stage& stage : stages) {
+        const auto goes_on = [&](const RandomPair& pair) {
+            return pair.stage == before && is_below(pair, stage.begins_below);
+        };
+        if (stage.times <= 1 || std::none_of(pairs.begin(), pairs.end(), goes_on)) {
+            break;
         }
+        const std::vector<RandomPair> again = compare(options.seed + stage.seeds, stage.times);
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            if (goes_on(pairs[i])) {
+                const std::uint64_t nonfinite = pairs[i].nonfinite;
+                pairs[i] = again[i];
+                pairs[i].nonfinite += nonfinite;
+                pairs[i].stage = before + 1;
+            }
+        }
+        ++before;
     }
-    return first;
+    return pairs;
 }
 
 }  // namespace

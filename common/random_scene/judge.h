@@ -35,6 +35,8 @@ struct JudgeOptions {
     double alpha = 1e-3;             // chance of a false FAIL, over all comparisons together
     double suspicious_p = 0.01;      // a pair with a test below is judged by a second stage alone
     std::uint32_t second_stage = 4;  // as many times the samples, with other seeds
+    double grave_p = 1e-4;           // and with one below in the second stage, by a third alone
+    std::uint32_t third_stage = 16;  // as many times the first's; 1 and less leaves it out
     std::uint32_t seed = 1;          // of the renders
 };
 
@@ -56,8 +58,9 @@ struct RandomPair {
 std::string text_of(const RandomPair& pair);
 
 /// Renders the scene, read from its files, on every side and compares. Where it moves, `ris` and `restir` are compared
-/// with `path` at every frame, and the integrators that look back to none with the oracle at one of them. What looks unlikely is rendered again with seeds
-/// of its own, and the second comparison stands alone, so that its p-values mean what they say.
+/// with `path` at every frame, and the integrators that look back to none with the oracle at one of them. What looks
+/// unlikely is rendered again with seeds of its own, and the last comparison stands alone, so that its p-values mean what
+/// they say; its samples are many, so that rare bright ones are among them and the runs' means are near to normal.
 std::vector<RandomPair> compare_scene(const RandomScene& random, const std::filesystem::path& path,
                                       const Renderers& renderers, const JudgeOptions& options);
 
