@@ -26,6 +26,7 @@ namespace {
 
 constexpr double default_half_width = 1;  // percent
 constexpr double shrinking_p = 1e-5;      // below which a smaller scene counts as failing too
+constexpr std::uint32_t confirming_seeds = 0x08000000U;  // apart from those of all stages (judge.cpp)
 
 /// Options that go with --random; all others belong to the scene, or to tests of one scene.
 constexpr const char* allowed[] = {"--random",         "--seed",      "--backends", "--integrators",
@@ -115,6 +116,13 @@ struct Failure {
     RandomPair pair;
     std::string file;     // the smallest scene that fails
     std::string command;  // that renders it
+    std::string verify;   // that judges the whole scene again
+};
+
+struct Refusal {
+    std::uint64_t scene = 0;
+    std::string file;
+    std::string reason;
 };
 
 /// Every second scene moves unless one kind is asked for.
@@ -123,10 +131,9 @@ RandomScene scene_of(std::uint64_t seed, const VerifyOptions& options) {
     return moves ? make_moving_random_scene(seed) : make_random_scene(seed);
 }
 
-/// Whether the failing pair fails on this scene too: by one test of it, with few enough samples for a hundred trials.
+/// Whether the failing pair fails on this scene too.
 bool fails_alike(const RandomScene& random, const RandomPair& failed, const Renderers& renderers, JudgeOptions options,
                  const std::filesystem::path& scratch) {
-    options.third_stage = 1;
     options.integrators = {failed.integrator};
     Renderers wanted = renderers;
     (failed.side.starts_with("cpu") ? wanted.vulkan : wanted.oracle) = {};
@@ -134,27 +141,58 @@ bool fails_alike(const RandomScene& random, const RandomPair& failed, const Rend
         const std::vector<RandomPair> pairs = compare_scene(random, scratch, wanted, options);
         return std::any_of(pairs.begin(), pairs.end(), [&](const RandomPair& pair) {
             const TileComparison& c = pair.comparison;
-            const bool fails = std::min({c.global_p, c.fisher_p, c.local_p}) < shrinking_p || pair.nonfinite > 0;
-            return fails && pair.frame == failed.frame;
+            const bool differs = std::min({c.global_p, c.fisher_p, c.local_p}) < shrinking_p || c.unequal > 0;
+            return pair.frame == failed.frame && (failed.nonfinite > 0 ? pair.nonfinite > 0 : differs);
         });
     } catch (const Error&) {
         return false;  // too small to be a scene
     }
 }
 
-Failure shrink_failure(const RandomPair& failed, const VerifyOptions& options, const Renderers& renderers,
-                       const JudgeOptions& judge_with, const ScratchFolder& scratch) {
+/// The smallest scene that fails. Trials are many and have few samples, so what they chose is judged once more by all
+/// stages, with other seeds; if it does not fail then, the scene stays whole.
+RandomScene shrink_failing(const RandomScene& whole, const RandomPair& failed, const Renderers& renderers,
+                           const JudgeOptions& judge_with, const ScratchFolder& scratch,
+                           const InterruptGuard& interrupt) {
+    JudgeOptions quickly = judge_with;
+    quickly.third_stage = 1;
+    const std::filesystem::path file = scratch.file("smaller.gltf");
+    const RandomScene smaller = shrink(whole, [&](const RandomScene& trial) {
+        return !interrupt.requested() && fails_alike(trial, failed, renderers, quickly, file);
+    });
+    JudgeOptions again = judge_with;
+    again.seed += confirming_seeds;
+    return fails_alike(smaller, failed, renderers, again, file) ? smaller : whole;
+}
+
+std::filesystem::path failing_file(const VerifyOptions& options, const std::string& name) {
+    const std::filesystem::path folder = options.output.empty() ? "." : options.output;
+    return (folder / (name + ".gltf")).lexically_normal();
+}
+
+Failure write_failure(const RandomPair& failed, const VerifyOptions& options, const Renderers& renderers,
+                      const JudgeOptions& judge_with, const ScratchFolder& scratch, const InterruptGuard& interrupt) {
     RandomScene random = scene_of(failed.scene, options);
     random.settings.integrator = failed.integrator;
-    const StillFails still_fails = [&](const RandomScene& smaller) {
-        return fails_alike(smaller, failed, renderers, judge_with, scratch.file("smaller.gltf"));
-    };
-    random = options.shrink ? shrink(random, still_fails) : random;
-    const std::filesystem::path folder = options.output.empty() ? "." : options.output;
-    const std::filesystem::path file =
-        (folder / fmt::format("random-{}-{}.gltf", failed.scene, name_of(failed.integrator))).lexically_normal();
+    const bool moves = random.frames > 0;
+    if (options.shrink && !interrupt.requested()) {
+        random = shrink_failing(random, failed, renderers, judge_with, scratch, interrupt);
+    }
+    const std::string name =
+        fmt::format("random-{}{}-{}", failed.scene, moves ? "-moving" : "", name_of(failed.integrator));
+    const std::filesystem::path file = failing_file(options, name);
     const std::string arguments = write_random_scene(random, file);
-    return {failed, file.string(), fmt::format("diptych render {} {}", file.string(), arguments)};
+    return {failed, file.string(), fmt::format("diptych render {} {} -o {}.exr", file.string(), arguments, name),
+            fmt::format("diptych verify --random 1 --seed {} {} --integrators {} --backends {} --max-half-width {}",
+                        failed.scene, moves ? "--moving" : "--still", name_of(failed.integrator),
+                        failed.side.starts_with("cpu") ? "cpu" : "vulkan", judge_with.half_width_percent)};
+}
+
+/// A scene that could not be rendered at all, though everything in it is allowed.
+Refusal write_refusal(std::uint64_t seed, const VerifyOptions& options, const Error& error) {
+    const std::filesystem::path file = failing_file(options, fmt::format("random-{}-refused", seed));
+    write_random_scene(scene_of(seed, options), file);
+    return {seed, file.string(), error.what()};
 }
 
 /// One failure a scene: its least likely pair.
@@ -179,6 +217,7 @@ void print_failure(const Failure& failure) {
     fmt::print("seed {}: {}: {:.3g} % [{:.3g}, {:.3g}], adjusted p {:.2g}: {}\n  {}: {}\n", pair.scene, text_of(pair),
                c.bias_percent, c.ci95_percent[0], c.ci95_percent[1], pair.verdict.adjusted_p,
                pair.verdict.reason, failure.file, failure.command);
+    fmt::print("  whole: {}\n", failure.verify);
 }
 
 nlohmann::ordered_json pair_json(const RandomPair& pair) {
@@ -190,6 +229,7 @@ nlohmann::ordered_json pair_json(const RandomPair& pair) {
             {"b", pair.reference},
             {"spp", pair.spp},
             {"stage", pair.stage},
+            {"samples_dropped", pair.nonfinite},
             {"bias_percent", c.bias_percent},
             {"ci95_percent", c.ci95_percent},
             {"half_width_percent", c.half_width_percent},
@@ -205,6 +245,7 @@ nlohmann::ordered_json failure_json(const Failure& failure) {
     nlohmann::ordered_json json = pair_json(failure.pair);
     json["output"] = failure.file;
     json["command"] = failure.command;
+    json["verify"] = failure.verify;
     return json;
 }
 
@@ -212,10 +253,28 @@ struct RandomReport {
     std::uint32_t scenes = 0;
     std::vector<RandomPair> pairs;
     std::vector<Failure> failures;
+    std::vector<Refusal> refusals;
+    bool interrupted = false;
     ReachedPower oracle_power, common_power;
     Verdict verdict = Verdict::inconclusive;
     double seconds = 0;
 };
+
+/// A scene that cannot be read or rendered is a finding; a device that is missing or lost ends the run.
+void judge_scene(std::uint64_t seed, const VerifyOptions& options, const Renderers& renderers,
+                 const JudgeOptions& judged_with, const ScratchFolder& scratch, RandomReport& report) {
+    try {
+        const std::vector<RandomPair> pairs =
+            compare_scene(scene_of(seed, options), scratch.file("scene.gltf"), renderers, judged_with);
+        report.pairs.insert(report.pairs.end(), pairs.begin(), pairs.end());
+    } catch (const NoDevice&) {
+        throw;
+    } catch (const DeviceLost&) {
+        throw;
+    } catch (const Error& error) {
+        report.refusals.push_back(write_refusal(seed, options, error));
+    }
+}
 
 void print_power(const char* what, const ReachedPower& power, double wanted) {
     if (power.pairs > 0) {
@@ -234,14 +293,21 @@ nlohmann::ordered_json power_json(const ReachedPower& power) {
 void print_report(const VerifyOptions& options, const JudgeOptions& judged_with, const RandomReport& report) {
     if (options.json) {
         nlohmann::ordered_json json{{"scenes", report.scenes},
+                                    {"asked", options.random},
+                                    {"interrupted", report.interrupted},
+                                    {"moving", options.moving ? "all" : options.still ? "none" : "even seeds"},
                                     {"seed", options.seed},
                                     {"verdict", name_of(report.verdict)},
                                     {"alpha", judged_with.alpha},
                                     {"cpu_against_oracle", power_json(report.oracle_power)},
                                     {"vulkan_against_cpu", power_json(report.common_power)},
+                                    {"refusals", nlohmann::ordered_json::array()},
                                     {"failures", nlohmann::ordered_json::array()},
                                     {"pairs", nlohmann::ordered_json::array()},
                                     {"seconds", report.seconds}};
+        for (const Refusal& refusal : report.refusals) {
+            json["refusals"].push_back({{"seed", refusal.scene}, {"output", refusal.file}, {"reason", refusal.reason}});
+        }
         for (const Failure& failure : report.failures) {
             json["failures"].push_back(failure_json(failure));
         }
@@ -251,10 +317,14 @@ void print_report(const VerifyOptions& options, const JudgeOptions& judged_with,
         print_json(json);
         return;
     }
+    for (const Refusal& refusal : report.refusals) {
+        fmt::print("seed {}: refused: {}\n  {}\n", refusal.scene, refusal.reason, refusal.file);
+    }
     for (const Failure& failure : report.failures) {
         print_failure(failure);
     }
-    fmt::print("{} scenes from seed {}, {:.0f} s\n", report.scenes, options.seed, report.seconds);
+    fmt::print("{} scenes from seed {}, {:.0f} s{}\n", report.scenes, options.seed, report.seconds,
+               report.interrupted ? fmt::format("; interrupted, {} were asked for", options.random) : "");
     print_power("cpu - oracle or path", report.oracle_power, judged_with.half_width_percent);
     print_power("vulkan - cpu, common seeds", report.common_power, judged_with.half_width_percent);
     fmt::print("{}\n", name_of(report.verdict));
@@ -288,30 +358,26 @@ int verify_random(const VerifyOptions& options) {
     const ScratchFolder scratch;
     const auto start = std::chrono::steady_clock::now();
     RandomReport report;
+    const InterruptGuard interrupt;
     {
-        InterruptGuard interrupt;
         StepLine line(static_cast<int>(options.random));
         for (; report.scenes < options.random && !interrupt.requested(); ++report.scenes) {
             const std::uint64_t seed = std::uint64_t(options.seed) + report.scenes;
             line.begin(fmt::format("seed {}", seed));
-            const std::vector<RandomPair> pairs =
-                compare_scene(scene_of(seed, options), scratch.file("scene.gltf"), renderers, judged_with);
-            report.pairs.insert(report.pairs.end(), pairs.begin(), pairs.end());
+            judge_scene(seed, options, renderers, judged_with, scratch, report);
         }
     }
     judge_all(report.pairs, judged_with);
-    const bool interrupted = report.scenes < options.random;
     for (const RandomPair& failed : failing_scenes(report.pairs)) {
-        if (!interrupted) {
-            report.failures.push_back(shrink_failure(failed, options, renderers, judged_with, scratch));
-        }
+        report.failures.push_back(write_failure(failed, options, renderers, judged_with, scratch, interrupt));
     }
+    report.interrupted = report.scenes < options.random;
     report.oracle_power = reached_power(report.pairs, "cpu", judged_with.half_width_percent);
     report.common_power = reached_power(report.pairs, "vulkan", judged_with.half_width_percent);
-    report.verdict = verdict_of(report.pairs, judged_with.half_width_percent);
+    report.verdict = report.refusals.empty() ? verdict_of(report.pairs, judged_with) : Verdict::fail;
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     print_report(options, judged_with, report);
-    if (interrupted) {
+    if (report.interrupted) {
         return exit_interrupted;
     }
     const bool fails = report.verdict == Verdict::fail || (options.require_pass && report.verdict != Verdict::pass);

@@ -81,7 +81,7 @@ Reference make_reference(const Judged& judged, Integrator integrator, std::uint3
 }
 
 /// One pair a frame, or one at rest. The reference may have more samples already. The number of samples follows from the
-/// noise alone, so it does not bend the p-values.
+/// noise alone, so it hardly bends the p-values.
 std::vector<RandomPair> against_reference(const Judged& judged, Integrator integrator, const Reference& reference,
                                           std::uint32_t seed, std::uint32_t times) {
     const JudgeOptions& options = judged.options;
@@ -245,19 +245,19 @@ ReachedPower reached_power(const std::vector<RandomPair>& pairs, const std::stri
     return power;
 }
 
-Verdict verdict_of(const std::vector<RandomPair>& pairs, double half_width_percent) {
+Verdict verdict_of(const std::vector<RandomPair>& pairs, const JudgeOptions& options) {
     constexpr double wanted_share = 0.9;
+    bool known = true;
     for (const RandomPair& pair : pairs) {
         if (pair.verdict.verdict == Verdict::fail) {
             return Verdict::fail;
         }
+        known = known && pair.verdict.adjusted_p > options.alpha;
     }
     for (const char* backend : {"cpu", "vulkan"}) {
-        if (reached_power(pairs, backend, half_width_percent).reached_share < wanted_share) {
-            return Verdict::inconclusive;
-        }
+        known = known && reached_power(pairs, backend, options.half_width_percent).reached_share >= wanted_share;
     }
-    return Verdict::pass;
+    return known ? Verdict::pass : Verdict::inconclusive;
 }
 
 }  // namespace diptych

@@ -1,4 +1,4 @@
-// Have all renderers one expectation on a random scene, and on many of them?
+// Tests on random scenes that all renderers have one expectation.
 #pragma once
 
 #include <atomic>
@@ -79,7 +79,8 @@ struct ReachedPower {
 ReachedPower reached_power(const std::vector<RandomPair>& pairs, const std::string& backend,
                            double half_width_percent);
 
-/// FAIL where a pair fails; INCONCLUSIVE where none does but fewer than nine tenths of the pairs of a backend are known well enough.
-Verdict verdict_of(const std::vector<RandomPair>& pairs, double half_width_percent);
+/// FAIL where a pair fails. INCONCLUSIVE where none does but one differs by its p-value and its runs are too skewed to
+/// believe that, or where fewer than nine tenths of a backend's pairs are known well enough. Else PASS.
+Verdict verdict_of(const std::vector<RandomPair>& pairs, const JudgeOptions& options);
 
 }  // namespace diptych

@@ -79,7 +79,6 @@ void add_part_drops(std::vector<Drop>& drops) {
     for (std::size_t i = 8; i-- > 0;) {
         drops.emplace_back([i](RandomScene& r) { return drop_light(r.scene, i); });
     }
-    drops.emplace_back([](RandomScene& r) { return clear(r.scene.instances); });
     for (std::size_t i = 8; i-- > 0;) {
         drops.emplace_back([i](RandomScene& r) { return erase(r.scene.instances, i); });
     }

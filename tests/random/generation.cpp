@@ -74,15 +74,29 @@ std::map<std::string, int> count_features(std::uint64_t seeds) {
         counts["nested nodes"] += scene.nodes.size() > scene.instances.size();
         for (const PunctualLight& light : scene.lights) {
             const char* names[] = {"point light", "spot light", "directional light"};
-            ++counts[names[int(light.type)]];
+            for (const char* name : names) {
+                counts[name] += name == names[int(light.type)];
+            }
         }
         const char* skies[] = {"no sky", "constant sky", "sky map"};
-        ++counts[skies[int(scene.environment.kind)]];
+        for (const char* name : skies) {
+            counts[name] += name == skies[int(scene.environment.kind)];
+        }
         const Camera& camera = scene.cameras[std::size_t(random.settings.camera)];
         counts["orthographic camera"] += camera.orthographic;
         counts["thin lens"] += camera.lens_radius > 0;
         counts["Blinn-Phong"] += random.settings.brdf == BrdfModel::blinn_phong;
         counts["microfacet normal maps"] += random.settings.normal_maps == NormalMaps::microfacet;
+        counts["generic pipelines"] += random.settings.generic;
+        counts["independent samples"] += random.settings.sampler == SamplerKind::independent;
+        counts["Sobol' samples"] += random.settings.sampler == SamplerKind::sobol;
+        counts["balance heuristic"] += random.settings.mis == MisHeuristic::balance;
+        counts["pairwise reuse"] += random.settings.resampling.mis == ResamplingMis::pairwise;
+        counts["balance reuse"] += random.settings.resampling.mis == ResamplingMis::balance;
+        counts["visibility in the target"] += random.settings.resampling.visibility == ResamplingVisibility::target;
+        counts["no temporal reuse"] += !random.settings.resampling.temporal;
+        counts["no spatial reuse"] += random.settings.resampling.spatial_passes == 0;
+        counts["no material candidate"] += !random.settings.resampling.bsdf_candidate;
         counts["depth 1"] += random.settings.max_depth == 1;
         counts["roulette"] += random.settings.max_depth > 3;
     }

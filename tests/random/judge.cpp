@@ -103,7 +103,7 @@ std::vector<RandomPair> judged(std::uint64_t seeds, float factor) {
 
 TEST_CASE("Random scenes show a side that is a twentieth brighter") {
     const std::vector<RandomPair> pairs = judged(2, 1.05F);
-    CHECK(verdict_of(pairs, 2) == Verdict::fail);
+    CHECK(verdict_of(pairs, JudgeOptions{}) == Verdict::fail);
     for (const RandomPair& pair : pairs) {
         INFO("seed " << pair.scene << ": " << pair.comparison.bias_percent << " %: " << pair.verdict.reason);
         CHECK(pair.stage == 3);
@@ -125,7 +125,7 @@ TEST_CASE("Moving random scenes show a frame before that has this frame's lights
     for (const bool forgets : {false, true}) {
         const std::vector<RandomPair> pairs = judged_moving(seed, forgets);
         REQUIRE(pairs.size() == random_frames);
-        CHECK((verdict_of(pairs, 3) == Verdict::fail) == forgets);
+        CHECK((verdict_of(pairs, JudgeOptions{}) == Verdict::fail) == forgets);
         CHECK(pairs[0].verdict.verdict != Verdict::fail);  // which looks back to nothing
     }
 }

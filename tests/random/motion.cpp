@@ -116,12 +116,15 @@ void check_alike(const Scene& drawn, const Scene& read) {
         CHECK(apart(drawn.cameras[i].camera_to_world, read.cameras[i].camera_to_world) < 1e-5);
     }
     for (const PunctualLight& light : drawn.lights) {
+        bool found = false;
         for (const PunctualLight& other : read.lights) {  // which may have another order
             if (other.name == light.name) {
+                found = true;
                 CHECK(apart(light.light_to_world, other.light_to_world) < 1e-5);
                 CHECK(glm::length(light.intensity - other.intensity) < 1e-4);
             }
         }
+        CHECK(found);
     }
     for (std::size_t i = 0; i < drawn.materials.size(); ++i) {
         CHECK(glm::length(drawn.materials[i].emission - read.materials[i].emission) < 1e-4);

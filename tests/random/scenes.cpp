@@ -64,7 +64,7 @@ void check_pairs(std::vector<RandomPair> pairs, std::uint64_t count, const Judge
     const ReachedPower power = reached_power(pairs, "", options.half_width_percent);
     std::printf("%d scenes, %d comparisons: known to %.2g %% (median), worst %.2g %%\n", int(count), int(pairs.size()),
                 power.median, power.worst);
-    CHECK(verdict_of(pairs, options.half_width_percent) == Verdict::pass);
+    CHECK(verdict_of(pairs, options) == Verdict::pass);
 }
 
 using MakeScene = RandomScene (*)(std::uint64_t seed);
@@ -84,7 +84,7 @@ void check_scenes(MakeScene make, std::uint64_t first, std::uint64_t count, cons
 std::uint64_t fresh_seed() {
     const char* given = std::getenv("DIPTYCH_RANDOM_SEED");
     const std::uint64_t seed = given != nullptr ? std::strtoull(given, nullptr, 10)
-                                                : std::uint64_t(std::time(nullptr)) * 10000;
+                                                : std::uint64_t(std::time(nullptr)) % 400000 * 10000;  // that --seed takes too
     std::printf("DIPTYCH_RANDOM_SEED=%llu\n", static_cast<unsigned long long>(seed));
     return seed;
 }
@@ -147,8 +147,8 @@ void check_on_device(std::vector<RandomScene> scenes, Integrator integrator) {
 
 TEST_CASE("Random scenes have the CPU panel's means on the device with common seeds") {
     NEED_VULKAN();
-    check_on_device({make_random_scene(201), make_random_scene(203), make_random_scene(205)}, Integrator::path);
-    check_on_device({make_random_scene(202), make_random_scene(204), make_random_scene(206)}, Integrator::restir);
+    check_on_device({make_random_scene(201), make_random_scene(203)}, Integrator::path);
+    check_on_device({make_random_scene(202), make_random_scene(204)}, Integrator::restir);
 }
 
 TEST_CASE("Moving random scenes have the CPU panel's means on the device with common seeds") {
