@@ -54,7 +54,7 @@ int list_scenes(bool json) {
     return exit_done;
 }
 
-/// Returns what `diptych render` wants beside the file.
+/// Both return what `diptych render` wants beside the file.
 std::string write_random(const GenerateArguments& options) {
     const std::uint64_t seed = options.generate.seed;
     return write_random_scene(options.moving ? make_moving_random_scene(seed) : make_random_scene(seed), options.output);

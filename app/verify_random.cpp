@@ -324,7 +324,7 @@ void print_report(const VerifyOptions& options, const JudgeOptions& judged_with,
         print_failure(failure);
     }
     fmt::print("{} scenes from seed {}, {:.0f} s{}\n", report.scenes, options.seed, report.seconds,
-               report.interrupted ? fmt::format("; interrupted, {} were asked for", options.random) : "");
+               report.interrupted ? fmt::format("; interrupted; asked for {}", options.random) : "");
     print_power("cpu - oracle or path", report.oracle_power, judged_with.half_width_percent);
     print_power("vulkan - cpu, common seeds", report.common_power, judged_with.half_width_percent);
     fmt::print("{}\n", name_of(report.verdict));
@@ -371,7 +371,7 @@ int verify_random(const VerifyOptions& options) {
     for (const RandomPair& failed : failing_scenes(report.pairs)) {
         report.failures.push_back(write_failure(failed, options, renderers, judged_with, scratch, interrupt));
     }
-    report.interrupted = report.scenes < options.random;
+    report.interrupted = interrupt.requested();  // while scenes were judged, or made smaller
     report.oracle_power = reached_power(report.pairs, "cpu", judged_with.half_width_percent);
     report.common_power = reached_power(report.pairs, "vulkan", judged_with.half_width_percent);
     report.verdict = report.refusals.empty() ? verdict_of(report.pairs, judged_with) : Verdict::fail;

@@ -20,12 +20,12 @@ struct VulkanOptions {
     bool group_instances = true;  // see instance_groups.h; the picture is the same
 };
 
+/// Opens the device that the options name. Throws NoDevice or Error.
+std::shared_ptr<Gpu> open_device(const VulkanOptions& options);
+
 /// Uploads the scene, builds its acceleration structures and compiles its pipeline; `packed` is not needed afterwards.
 /// Throws NoDevice where no device serves, saying what is missing; Error where one fails.
 std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options);
-
-/// Opens the device that the options name. Throws NoDevice or Error.
-std::shared_ptr<Gpu> open_device(const VulkanOptions& options);
 
 /// The same on a device that is open already, and that others may use at the same time, from their own threads. Of the
 /// options only group_instances is asked.

@@ -52,13 +52,27 @@ bool is_below(const RandomPair& pair, double p) {
     return std::min({c.global_p, c.fisher_p, c.local_p}) < p || c.unequal > 0;
 }
 
-RandomPair new_pair(const Judged& judged, Integrator integrator, const char* side, const std::string& reference) {
-    RandomPair pair;
-    pair.scene = judged.random.seed;
-    pair.integrator = integrator;
-    pair.side = std::string(side) + "/" + name_of(integrator);
-    pair.reference = reference;
-    return pair;
+/// One pair a frame, or one at rest.
+template <typename Compare>
+std::vector<RandomPair> make_pairs(const Judged& judged, Integrator integrator, const RandomSide& side,
+                                   const std::string& backend, const RandomSide& reference,
+                                   const std::string& reference_name, Compare&& compare) {
+    const std::vector<std::uint32_t> frames = judged.frames(integrator);
+    std::vector<RandomPair> pairs(std::max<std::size_t>(frames.size(), 1));
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        RandomPair& pair = pairs[i];
+        pair.scene = judged.random.seed;
+        pair.integrator = integrator;
+        pair.side = backend + "/" + name_of(integrator);
+        pair.reference = reference_name;
+        pair.comparison = compare(side.runs(i), reference.runs(i));
+        pair.spp = side.spp();
+        pair.nonfinite = side.nonfinite() + reference.nonfinite();
+        if (!frames.empty()) {
+            pair.frame = frames[i];
+        }
+    }
+    return pairs;
 }
 
 /// What the CPU under an integrator is compared with, at the same frames. The oracle takes about as long as four
@@ -80,40 +94,28 @@ Reference make_reference(const Judged& judged, Integrator integrator, std::uint3
     return {"oracle/mis", judged.side(judged.renderers.oracle, Integrator::path, frames, seed + oracle_seeds)};
 }
 
-/// One pair a frame, or one at rest. The reference may have more samples already. The number of samples follows from the
-/// noise alone, so it hardly bends the p-values.
+/// The reference may have more samples already. The number of samples follows from the noise alone, so it hardly bends
+/// the p-values.
 std::vector<RandomPair> against_reference(const Judged& judged, Integrator integrator, const Reference& reference,
                                           std::uint32_t seed, std::uint32_t times) {
     const JudgeOptions& options = judged.options;
     const std::vector<std::uint32_t> frames = judged.frames(integrator);
     const std::size_t count = std::max<std::size_t>(frames.size(), 1);
     const auto cpu = judged.side(judged.renderers.cpu, integrator, frames, seed);
-    const auto compare = [&](std::size_t i, const TileTestOptions& with) {
-        return compare_runs(cpu->runs(i), reference.side->runs(i), with);
-    };
     for (std::uint32_t spp = options.first_spp * times;; spp *= 2) {
         cpu->extend_to(spp);
         reference.side->extend_to(spp);
         bool enough = true;
         for (std::size_t i = 0; i < count && enough; ++i) {
-            enough = compare(i, {.resamplings = 0}).half_width_percent <= options.half_width_percent;
+            const TileComparison now = compare_runs(cpu->runs(i), reference.side->runs(i), {.resamplings = 0});
+            enough = now.half_width_percent <= options.half_width_percent;
         }
         if (enough || 2 * spp > options.most_spp * times) {
             break;
         }
     }
-    std::vector<RandomPair> pairs;
-    for (std::size_t i = 0; i < count; ++i) {
-        RandomPair pair = new_pair(judged, integrator, "cpu", reference.name);
-        pair.comparison = compare(i, {});
-        pair.spp = cpu->spp();
-        pair.nonfinite = cpu->nonfinite() + reference.side->nonfinite();
-        if (!frames.empty()) {
-            pair.frame = frames[i];
-        }
-        pairs.push_back(pair);
-    }
-    return pairs;
+    return make_pairs(judged, integrator, *cpu, "cpu", *reference.side, reference.name,
+                      [](const auto& a, const auto& b) { return compare_runs(a, b); });
 }
 
 std::vector<RandomPair> against_cpu(const Judged& judged, Integrator integrator, std::uint32_t seed,
@@ -123,18 +125,8 @@ std::vector<RandomPair> against_cpu(const Judged& judged, Integrator integrator,
     const auto cpu = judged.side(judged.renderers.cpu, integrator, frames, seed);
     vulkan->extend_to(spp);
     cpu->extend_to(spp);
-    std::vector<RandomPair> pairs;
-    for (std::size_t i = 0; i < std::max<std::size_t>(frames.size(), 1); ++i) {
-        RandomPair pair = new_pair(judged, integrator, "vulkan", std::string("cpu/") + name_of(integrator));
-        pair.comparison = compare_common_runs(vulkan->runs(i), cpu->runs(i));
-        pair.spp = vulkan->spp();
-        pair.nonfinite = vulkan->nonfinite() + cpu->nonfinite();
-        if (!frames.empty()) {
-            pair.frame = frames[i];
-        }
-        pairs.push_back(pair);
-    }
-    return pairs;
+    return make_pairs(judged, integrator, *vulkan, "vulkan", *cpu, std::string("cpu/") + name_of(integrator),
+                      [](const auto& a, const auto& b) { return compare_common_runs(a, b); });
 }
 
 /// After a stage with a p-value below `begins_below`.
