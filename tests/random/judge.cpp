@@ -129,3 +129,18 @@ TEST_CASE("Moving random scenes show a frame before that has this frame's lights
         CHECK(pairs[0].verdict.verdict != Verdict::fail);  // which looks back to nothing
     }
 }
+
+TEST_CASE("A pair that differs by its p-value alone keeps random scenes from a PASS") {
+    RandomPair pair;
+    pair.side = "cpu/path";
+    pair.comparison.half_width_percent = 0.5;
+    pair.verdict.verdict = Verdict::inconclusive;  // its runs are too skewed for a FAIL
+    pair.verdict.adjusted_p = 1e-5;
+    CHECK(verdict_of({pair}, JudgeOptions{}) == Verdict::inconclusive);
+    pair.verdict.adjusted_p = 0.5;
+    CHECK(verdict_of({pair}, JudgeOptions{}) == Verdict::pass);
+    pair.comparison.half_width_percent = 1.5;
+    CHECK(verdict_of({pair}, JudgeOptions{}) == Verdict::inconclusive);
+    pair.verdict.verdict = Verdict::fail;
+    CHECK(verdict_of({pair}, JudgeOptions{}) == Verdict::fail);
+}
