@@ -42,17 +42,12 @@ FN float pick_number(IN(Sampler) random, uint dimension, uint i) {
     return unit_float(independent_words(random, dimension + i).x);
 }
 
-/// For each pair of the pixel and a neighbour: the target of the neighbour's sample here, and that of the own sample there. 0 where
-/// nobody asks.
-struct PairTargets {
-    float here[RESAMPLING_MAX_NEIGHBORS];
-    float there[RESAMPLING_MAX_NEIGHBORS];
-};
-
-/// Both by one call in one loop: where a loop had two traces, NVIDIA's driver gave wrong answers (decision 0024).
-FN PairTargets pair_targets(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target, IN(Neighborhood) others,
-                            INOUT(uint) rays) {
-    PairTargets targets;
+/// Pairwise MIS with defence. A null sample keeps its confidence. Each neighbour is asked for twice, for its point here and for the
+/// own point there, and by one call: where the loop held two traces, NVIDIA's driver gave wrong answers (decision 0024).
+FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target, IN(Neighborhood) others,
+                            float others_confidence, IN(Sampler) random, uint dimension, INOUT(uint) rays) {
+    Resampling chosen = begin_resampling();
+    float own_share = own.confidence / (others_confidence + own.confidence);
     for (uint k = 0u; k < 2u * others.count; k++) {
         uint i = k >> 1;
         bool there = (k & 1u) != 0u;
@@ -60,49 +55,25 @@ FN PairTargets pair_targets(IN(TargetSurface) own_surface, IN(Reservoir) own, fl
         TargetSurface surface = own_surface;
         LightPoint point = r.point;
         uint moment = MOMENT_CURRENT;
-        bool asks = r.weight > 0.0f;
+        bool asks = r.confidence > 0.0f && (there ? own_target > 0.0f : r.weight > 0.0f);
         if (there) {
             surface = neighbor_surface(others, i);
             point = own.point;
             moment = others.moment;
-            asks = own_target > 0.0f;
         }
-        float target = 0.0f;
-        if (asks && r.confidence > 0.0f) {
-            target = target_at(surface, point, moment, rays);
-        }
-        if (there) {
-            targets.there[i] = target;
-        } else {
-            targets.here[i] = target;
-        }
-    }
-    return targets;
-}
-
-/// Pairwise MIS with defence. A null sample keeps its confidence.
-FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target, IN(Neighborhood) others,
-                            float others_confidence, IN(Sampler) random, uint dimension, INOUT(uint) rays) {
-    PairTargets targets = pair_targets(own_surface, own, own_target, others, rays);
-    Resampling chosen = begin_resampling();
-    float own_share = own.confidence / (others_confidence + own.confidence);
-    for (uint i = 0u; i < others.count; i++) {
-        Reservoir r = neighbor_reservoir(others, i);
-        if (!(r.confidence > 0.0f)) {
+        if (!asks) {
             continue;
         }
-        float here = targets.here[i];
-        if (here > 0.0f) {
-            float share = MUTANT(REUSE_ONE_OVER_M,
-                                 pairwise_neighbor_share(r.confidence, r.target, own.confidence, here, others_confidence),
-                                 r.confidence / (others_confidence + own.confidence));
-            add_reservoir(chosen, r, here, share, pick_number(random, dimension, i));
-        }
-        if (own_target > 0.0f) {
+        float target = target_at(surface, point, moment, rays);
+        if (there) {
             own_share += MUTANT(REUSE_ONE_OVER_M,
-                                pairwise_canonical_share(r.confidence, targets.there[i], own.confidence, own_target,
-                                                         others_confidence),
+                                pairwise_canonical_share(r.confidence, target, own.confidence, own_target, others_confidence),
                                 0.0f);
+        } else if (target > 0.0f) {
+            float share = MUTANT(REUSE_ONE_OVER_M,
+                                 pairwise_neighbor_share(r.confidence, r.target, own.confidence, target, others_confidence),
+                                 r.confidence / (others_confidence + own.confidence));
+            add_reservoir(chosen, r, target, share, pick_number(random, dimension, i));
         }
     }
     if (own_target > 0.0f) {
