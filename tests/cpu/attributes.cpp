@@ -126,3 +126,27 @@ TEST_CASE("A tangent along the normal leaves the normal map out") {
         CHECK(std::abs(mean_of(leaning.scene) - flat) < 1e-4);
     }
 }
+
+TEST_CASE("The layer of normals holds the map's normal by either model, as far as the surface is shaded by it") {
+    for (const NormalMaps model : {NormalMaps::shading, NormalMaps::microfacet}) {
+        for (const bool below : {false, true}) {
+            Leaning leaning = leaning_square();
+            if (below) {
+                leaning.scene.images[0].rgba = {128, 255, 64, 255};
+            }
+            RenderSettings settings = statistical_settings(4, 4, Integrator::path, 1);
+            settings.normal_maps = model;
+            settings.first_hit_layers = true;
+            const Film film = render_cpu(leaning.scene, settings, 4);
+            glm::dvec3 expected = glm::normalize(below ? glm::dvec3(1, 255, -127) : glm::dvec3(1, 127, 221));
+            if (below && model == NormalMaps::shading) {  // raised until its cosine to the surface is a hundredth
+                const glm::dvec2 along = glm::normalize(glm::dvec2(expected)) * std::sqrt(1 - 1e-4);
+                expected = glm::dvec3(along, 1e-2);
+            }
+            INFO((model == NormalMaps::shading ? "shading" : "microfacet") << (below ? ", below" : ""));
+            for (const shared::FilmFirstHit& hit : film.first_hits) {
+                CHECK(glm::length(glm::dvec3(hit.normal) - expected) < 1e-5);
+            }
+        }
+    }
+}

@@ -1,5 +1,7 @@
 // What a surface gets from its triangle's corners, value by value: the second primitive of a mesh, whose corners all differ, under an
 // instance that turns, stretches and moves, against double precision.
+#include <limits>
+
 #include "backend/cpu_kernel.h"
 #include "render_fixture.h"
 
@@ -145,4 +147,30 @@ TEST_CASE("A surface's normals are unit and face the eye, from either side") {
         faced += glm::dot(s.normal, -direction) > 0 ? 1 : -1;
     }
     CHECK(faced == 0);  // the front once, the back once
+}
+
+TEST_CASE("Every vector of 1e-36 to 1e37 has its direction, along any axis, and what has none gets another's") {
+    Fixture f;
+    const EmbreeScene embree(f.packed);
+    Kernel kernel{f.packed, f.packed.constants, {{embree}}};
+    const glm::vec3 fallback(0, 0.6F, -0.8F);
+    const glm::dvec3 shapes[] = {{1, 0, 0}, {-1, 0, 0}, {3, -1, 0.5}, {-0.1, 0, 0.01}};
+    for (const glm::dvec3& shape : shapes) {
+        for (const double size : {1e-35, 1e-25, 1e-15, 1e-5, 1.0, 1e5, 1e15, 1e25, 1e36}) {
+            for (int turn = 0; turn < 3; ++turn) {
+                const glm::dvec3 v = size * glm::dvec3(shape[turn], shape[(turn + 1) % 3], shape[(turn + 2) % 3]);
+                CAPTURE(v.x, v.y, v.z);
+                CHECK(glm::length(glm::dvec3(kernel.normalize_or(glm::vec3(v), fallback)) - glm::normalize(v)) < 1e-6);
+            }
+        }
+    }
+    const float infinite = std::numeric_limits<float>::infinity();
+    for (const float none : {0.0F, 1e-38F, -1e-38F, infinite, -infinite}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 v(0);
+            v[axis] = none;
+            CAPTURE(none, axis);
+            CHECK(kernel.normalize_or(v, fallback) == fallback);
+        }
+    }
 }

@@ -60,3 +60,34 @@ TEST_CASE("recorded paths carry the light of the picture, to the bit") {
         }
     }
 }
+
+TEST_CASE("Recorded light is weighed where a surface emits or the sky is met, and nowhere else") {
+    Scene scene = load_own_scene("cornell");
+    scene.environment.kind = EnvironmentKind::constant;
+    for (const Integrator integrator : integrators) {
+        const RenderSettings settings = statistical_settings(16, 12, integrator, 4);
+        const PackedScene packed = pack_scene(scene, settings);
+        const auto renderer = make_cpu_renderer(packed, 2);
+        int wrong = 0;
+        int dark = 0;
+        double brightest = 0;
+        for (const RecordedPath& path : renderer->record_paths(all_paths(settings, 0))) {
+            for (const shared::PathVertexRecord& v : path.vertices) {
+                bool emits = v.instance == shared::NONE;
+                if (!emits) {
+                    const std::uint32_t geometry = packed.instances[v.instance].first_geometry + v.geometry;
+                    const shared::Material& material = packed.materials[packed.geometries[geometry].material];
+                    emits = material.emission != glm::vec3(0);
+                }
+                wrong += v.emission_weight < 0 || v.emission_weight > 1 || (!emits && v.emission_weight != 0) ? 1 : 0;
+                wrong += v.emission_weight == 0 && v.emission != glm::vec3(0) ? 1 : 0;
+                dark += emits ? 0 : 1;
+                brightest = std::max(brightest, static_cast<double>(v.emission_weight));
+            }
+        }
+        INFO(name_of(integrator));
+        CHECK(wrong == 0);
+        CHECK(dark > 100);
+        CHECK(brightest == 1);  // seen directly
+    }
+}

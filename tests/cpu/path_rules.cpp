@@ -69,3 +69,20 @@ TEST_CASE("No two rays of a path decide about alpha by the same number, nor do t
     CHECK(keys.size() + 1 >= rays);  // of 4224 numbers of 31 bits two are equal by chance with probability 0.4 %
     CHECK(keys.count(shared::NONE) == 0);
 }
+
+TEST_CASE("A sample that is dropped leaves neither mean nor second moment touched, be it the first") {
+    Fixture f;
+    REQUIRE(f.kernel.feature(shared::FEATURE_STANDARD_ERROR));
+    const float bad = std::nanf("");
+    shared::FilmPixel pixel{};
+    shared::FilmMoments moments{};
+    shared::FilmFirstHit first_hit{};
+    for (const float radiance : {bad, 1.0F, HUGE_VALF, 3.0F, -1.0F, 5.0F}) {
+        f.kernel.add_path({glm::vec3(radiance, 2, 2 * radiance), 1, f.kernel.no_first_hit()}, pixel, moments, first_hit);
+    }
+    CHECK(pixel.samples == 3);
+    CHECK(pixel.nonfinite == 3);
+    CHECK(pixel.sum == glm::vec3(9, 6, 18));
+    CHECK(moments.first == glm::vec3(1, 2, 2));
+    CHECK(moments.sum_squares == glm::vec3(0 + 4 + 16, 0, 0 + 16 + 64));
+}

@@ -102,7 +102,7 @@ TEST_CASE("A dim lamp is found beside itself, though bright ones share its clust
     CHECK(dimmest < 1e-3F);
 }
 
-TEST_CASE("As many lights are picked near as asked for, from one on, and the rest by power") {
+TEST_CASE("As many lights are picked near as asked for, from one on, the rest by power, and densities add up to all picks") {
     for (std::uint32_t near = 0; near <= 4; ++near) {
         RenderSettings settings;
         settings.width = 8;
@@ -110,14 +110,36 @@ TEST_CASE("As many lights are picked near as asked for, from one on, and the res
         settings.integrator = Integrator::ris;
         settings.resampling.light_candidates = 8;
         settings.resampling.near_share = static_cast<float>(near) / 8;
-        const PackedScene packed = pack_scene(generated("many-lights", 300), settings);
+        Scene scene = generated("many-lights", 300);
+        PunctualLight bulb;
+        bulb.light_to_world[3] = {0.5, 1, 0.5, 1};
+        PunctualLight sun;
+        sun.type = PunctualType::directional;
+        scene.lights = {bulb, sun};
+        const PackedScene packed = pack_scene(scene, settings);
         const EmbreeScene embree(packed);
         Kernel kernel{packed, packed.constants, {{embree}}};
-        const auto picker = kernel.begin_light_picker(surface_at(packed.emissive_triangles[7].vertex_0, {0, 1, 0}));
         CAPTURE(near);
-        CHECK(picker.near == near);
-        CHECK(picker.by_power == 8 - near);
-        CHECK((picker.sum > 0) == (near > 0));
+        for (const glm::vec3& place : {packed.emissive_triangles[7].vertex_0, packed.punctual_lights[0].position - glm::vec3(0, 0.2F, 0)}) {
+            const auto picker = kernel.begin_light_picker(surface_at(place, {0, 1, 0}));
+            CHECK(picker.near == near);
+            CHECK(picker.by_power == 8 - near);
+            CHECK((picker.sum > 0) == (near > 0));
+            double picks = 0;
+            int fewer = 0;
+            int more = 0;
+            for (std::uint32_t id = 0; id < packed.constants.light_count; ++id) {
+                const std::size_t emitters = packed.emissive_triangles.size();
+                const float pmf = id < emitters ? packed.emissive_triangles[id].pmf : packed.punctual_lights[id - emitters].pmf;
+                const float density = kernel.picks_of_light(picker, id);
+                picks += static_cast<double>(pmf) * static_cast<double>(density);
+                fewer += density >= static_cast<float>(8 - near) ? 0 : 1;
+                more += density > static_cast<float>(8 - near) ? 1 : 0;
+            }
+            CHECK(picks == Approx(8).epsilon(1e-4));
+            CHECK(fewer == 0);
+            CHECK((more > 0) == (near > 0));
+        }
     }
 }
 

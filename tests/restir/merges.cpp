@@ -151,6 +151,41 @@ TEST_CASE("Spatial neighbours lie uniformly on the disk of the radius") {
     CHECK(farthest > 9);
 }
 
+TEST_CASE("The neighbours of a pixel are drawn independently of each other") {
+    RenderSettings settings = restir_settings(64, 48);
+    settings.resampling.temporal = false;
+    settings.resampling.neighbors = 4;
+    settings.resampling.radius = 10;
+    Frame chain(floor_from_above(), settings);
+    // Confidences of a thousand and the column: what a merge adds to its own tells how many neighbours there are and how far aside all
+    // together.
+    const ResamplingStep step = chain.run(0, ResamplingStage::spatial, [&](const ResamplingStep& s) {
+        for (std::uint32_t i = 0; i < chain.films.pixels; ++i) {
+            shared::Reservoir r = shared::empty_reservoir();
+            r.confidence = static_cast<float>(1000 + i % 64);
+            chain.kernel.store_reservoir(s.pass.reservoirs, i, r);
+        }
+    });
+    double squares = 0;
+    int neighbors = 0;
+    int pixels = 0;
+    for (int y = 11; y < 48 - 11; ++y) {
+        for (int x = 11; x < 64 - 11; ++x) {
+            const auto merged = static_cast<int>(chain.kernel.load_reservoir(resulting_set(step), static_cast<std::uint32_t>(64 * y + x)).confidence);
+            const int added = merged - (1000 + x);
+            const int count = added / 1000;
+            const int aside = added - count * (1000 + x);
+            squares += aside * aside;
+            neighbors += count;
+            ++pixels;
+        }
+    }
+    CHECK(neighbors > 3.9 * pixels);
+    // The variance of a sum of independent offsets is the sum of theirs, r^2 / 4 and 1 / 12 from rounding to pixels; five standard errors.
+    const double expected = 100.0 / 4 + 1.0 / 12;
+    CHECK(std::abs(squares / neighbors - expected) < 5 * std::sqrt(2.0 / pixels) * expected);
+}
+
 TEST_CASE("A place on the film is within its width and its height") {
     Frame chain(floor_from_above(), restir_settings(64, 48));
     const shared::uvec2 size(64, 48);

@@ -224,3 +224,22 @@ TEST_CASE("Reuse pays from the least width of a lobe on, also where the view is 
     CHECK(wants(0.09f, 1.0f, NORMAL_MAP_MICROFACET, 0.0f));  // nothing reflects
     CHECK(wants(0.09f, 1.0f, NORMAL_MAP_SHADING, 1.0f));
 }
+
+TEST_CASE("Reuse on a surface that a map shades goes by the specular normal, which faces the eye where the map's does not") {
+    SurfaceBsdf b;
+    const auto at_angle = [](double degrees) { return direction_at(std::cos(degrees * M_PI / 180.0), degrees < 0.0 ? M_PI : 0.0); };
+    b.geometric_normal = b.shading_normal = at_angle(0.0);
+    b.mapped_normal = at_angle(60.0);
+    b.mapped = NORMAL_MAP_SHADING;
+    const vec3 wo = at_angle(-60.0);
+    // It sends wo where the cosine to the surface is 0.1, and lies halfway.
+    const double half = 0.5 * (M_PI / 3.0 + std::acos(0.1));
+    const double least = 0.5 * static_cast<double>(TARGET_ALPHA_MIN) / std::cos(half);
+    REQUIRE(least > static_cast<double>(TARGET_ALPHA_MIN));
+    for (const double factor : {0.98, 1.02}) {
+        const auto roughness = static_cast<float>(std::sqrt(factor * least));
+        b.parameters = bsdf_parameters(vec3(0.5f, 0.5f, 0.5f), 1.0f, roughness, 0.04f, 1.0f, vec3(1.0f, 1.0f, 1.0f), BRDF_GGX);
+        CAPTURE(factor);
+        CHECK(wants_reuse(b, wo) == (factor > 1.0));
+    }
+}
