@@ -125,6 +125,11 @@ TEST_CASE("A tangent along the normal leaves the normal map out") {
         square_of(leaning.scene).tangents.assign(4, glm::vec4(tangent, 1));
         CHECK(std::abs(mean_of(leaning.scene) - flat) < 1e-4);
     }
+    for (const float sine : {0.5e-4F, 2e-4F}) {  // to the normal; 1e-4 is the least that gives a direction
+        square_of(leaning.scene).tangents.assign(4, glm::vec4(sine, 0, 1, 1));
+        CAPTURE(sine);
+        CHECK(std::abs(mean_of(leaning.scene) - (sine < 1e-4F ? flat : leaning.along)) < 1e-4);
+    }
 }
 
 TEST_CASE("The layer of normals holds the map's normal by either model, as far as the surface is shaded by it") {

@@ -143,6 +143,33 @@ TEST_CASE("As many lights are picked near as asked for, from one on, the rest by
     }
 }
 
+TEST_CASE("A cluster's parts are told apart within two radii of it, if it has several lights") {
+    RenderSettings settings;
+    settings.width = 8;
+    settings.height = 8;
+    settings.integrator = Integrator::ris;
+    const PackedScene packed = pack_scene(generated("many-lights", 300), settings);
+    const EmbreeScene embree(packed);
+    Kernel kernel{packed, packed.constants, {{embree}}};
+    int told = 0;
+    for (std::uint32_t cluster = 0; cluster < packed.constants.light_cluster_count; ++cluster) {
+        const shared::LightCluster& whole = packed.light_clusters[cluster];
+        for (const float radii : {0.0F, 1.9F, 2.1F}) {
+            const glm::vec3 up(0, 1, 0);
+            const auto picker = kernel.begin_light_picker(surface_at(whole.center - radii * whole.radius * up, up));
+            double sum = 0;
+            for (std::uint32_t i = 0; i < shared::PARTS_PER_CLUSTER; ++i) {
+                sum += static_cast<double>(kernel.cluster_weight(picker, kernel.load_cluster_part(cluster, i)));
+            }
+            const bool tells = whole.count > 1 && radii < 2;
+            CAPTURE(cluster, whole.count, radii);
+            CHECK(kernel.parts_sum(picker, cluster, whole) == Approx(tells ? sum : 0).epsilon(1e-5));
+            told += tells && sum > 0 ? 1 : 0;
+        }
+    }
+    CHECK(told > 10);
+}
+
 TEST_CASE("An emitter is within reach beside any of them, and none is far from all") {
     RenderSettings settings;
     settings.width = 8;
@@ -160,6 +187,36 @@ TEST_CASE("An emitter is within reach beside any of them, and none is far from a
     }
     CHECK(far == 0);
     CHECK(!kernel.begin_light_picker(surface_at({0, 500, 0}, {0, -1, 0})).close);
+}
+
+TEST_CASE("Materials are sampled for lights twice where their lobe is narrow, and where emitters are close, once or now and then") {
+    RenderSettings settings;
+    settings.width = 8;
+    settings.height = 8;
+    settings.integrator = Integrator::ris;
+    PackedScene packed = pack_scene(generated("many-lights", 300), settings);
+    packed.features |= shared::FEATURE_MIRRORS;
+    const EmbreeScene embree(packed);
+    Kernel kernel{packed, packed.constants, {{embree}}};
+    auto picker = kernel.begin_light_picker(surface_at(packed.emissive_triangles[7].vertex_0, {0, 1, 0}));
+    const glm::vec3 white(1);
+    for (const bool close : {false, true}) {
+        picker.close = close;
+        const auto sampled = [&](float alpha, float specular) {
+            shared::SurfaceBsdf bsdf{};
+            bsdf.parameters = shared::bsdf_parameters(white, 0, std::sqrt(alpha), 0.04F, specular, white, shared::BRDF_GGX);
+            const auto c = kernel.bsdf_candidates(bsdf, picker);
+            return std::pair(c.count, c.reach);
+        };
+        const float reach = kernel.light_reach();
+        CAPTURE(close);
+        CHECK(sampled(0.09F, 1) == std::pair(2.0F, shared::INFINITE_DISTANCE));
+        CHECK(sampled(0.11F, 1) == std::pair(close ? 1.0F : 0.0F, reach));
+        CHECK(sampled(0.49F, 1) == std::pair(close ? 1.0F : 0.0F, reach));
+        CHECK(sampled(0.51F, 1) == std::pair(close ? 0.125F : 0.0F, reach));
+        CHECK(sampled(0.09F, 0) == std::pair(close ? 0.125F : 0.0F, reach));  // nothing reflects
+        CHECK(sampled(0, 1) == std::pair(close ? 0.125F : 0.0F, reach));      // a mirror shows lights without that
+    }
 }
 
 }  // namespace diptych::tests

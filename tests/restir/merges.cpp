@@ -186,6 +186,25 @@ TEST_CASE("The neighbours of a pixel are drawn independently of each other") {
     CHECK(std::abs(squares / neighbors - expected) < 5 * std::sqrt(2.0 / pixels) * expected);
 }
 
+TEST_CASE("A disk within the pixel itself holds no neighbours") {
+    RenderSettings settings = restir_settings(64, 48);
+    settings.resampling.temporal = false;
+    settings.resampling.radius = 0.499F;
+    Frame chain(floor_from_above(), settings);
+    const ResamplingStep step = chain.run(0, ResamplingStage::spatial, [&](const ResamplingStep& s) {
+        for (std::uint32_t i = 0; i < chain.films.pixels; ++i) {
+            shared::Reservoir r = shared::empty_reservoir();
+            r.confidence = 1;
+            chain.kernel.store_reservoir(s.pass.reservoirs, i, r);
+        }
+    });
+    int with_others = 0;
+    for (std::uint32_t i = 0; i < chain.films.pixels; ++i) {
+        with_others += chain.kernel.load_reservoir(resulting_set(step), i).confidence == 1 ? 0 : 1;
+    }
+    CHECK(with_others == 0);
+}
+
 TEST_CASE("A place on the film is within its width and its height") {
     Frame chain(floor_from_above(), restir_settings(64, 48));
     const shared::uvec2 size(64, 48);

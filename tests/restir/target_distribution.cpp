@@ -27,8 +27,10 @@ Scene floor_under(const Material& floor, const std::vector<Primitive>& lamps, co
     return scene;
 }
 
-void check_distribution(const Scene& scene, Integrator integrator, std::uint32_t samples, const Part& part_of) {
+void check_distribution(const Scene& scene, Integrator integrator, std::uint32_t samples, const Part& part_of,
+                        const ResamplingSettings& resampling = {}) {
     RenderSettings settings;
+    settings.resampling = resampling;
     settings.width = 1;
     settings.height = 1;
     settings.integrator = integrator;
@@ -101,6 +103,21 @@ TEST_CASE("Each of four lamps gets the share of a reservoir's light that quadrat
                                     {0.3, 1, 1});
     for (const Integrator integrator : {Integrator::ris, Integrator::restir}) {
         check_distribution(scene, integrator, 40000, [](const shared::LightPoint& y, double) { return y.light / 2; });
+    }
+}
+
+TEST_CASE("A small lamp close by gets the share that quadrature says, though the diffuse floor looks for it one time in eight") {
+    std::vector<Primitive> lamps{horizontal_square({0.03F, 0.02F, 0}, 0.03F, false, 1)};
+    for (const float x : {-2.2F, 0.0F, 2.2F}) {
+        lamps.push_back(horizontal_square({x, 2, 1.1F}, 1, false, 1));
+        lamps.push_back(horizontal_square({x, 2, -1.1F}, 1, false, 1));
+    }
+    const Scene scene = floor_under(diffuse_material(0.7F), lamps, {-0.3, 1, 0.2});
+    ResamplingSettings by_power;
+    by_power.near_share = 0;  // so that picks seldom find it
+    for (const Integrator integrator : {Integrator::ris, Integrator::restir}) {
+        check_distribution(
+            scene, integrator, 60000, [](const shared::LightPoint& y, double) { return y.light < 2 ? 0U : 1U; }, by_power);
     }
 }
 
