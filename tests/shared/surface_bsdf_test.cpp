@@ -1,5 +1,7 @@
 #include "surface_bsdf.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 
 #include "catch.h"
@@ -194,6 +196,32 @@ TEST_CASE("A mapped surface draws directions with the density that it states") {
 
 TEST_CASE("A million directions off a mapped surface have the density that it states", "[nightly]") {
     check_mapped_draws(1000000);
+}
+
+TEST_CASE("A direction drawn weighs what the surface reflects that way over its density, by any normal map and by none") {
+    Uniforms u(36);
+    std::array<int, 3> drawn{};
+    int different = 0;
+    for (int k = 0; k < 60000; ++k) {
+        const auto model = static_cast<std::size_t>(k % 3);
+        SurfaceBsdf s;
+        s.parameters = k % 2 == 0 ? plastic(0.1f + 0.9f * u.next()) : white_metal(0.1f + 0.9f * u.next());
+        s.geometric_normal = up;
+        s.shading_normal = direction_at(0.3 + 0.7 * u.next(), 6.28 * u.next());
+        s.mapped_normal = model == NORMAL_MAP_NONE ? s.shading_normal : direction_at(0.3 + 0.7 * u.next(), 6.28 * u.next());
+        s.mapped = static_cast<uint>(model);
+        const vec3 wo = direction_at(0.05 + 0.95 * u.next(), 6.28 * u.next());
+        const vec2 u_lobe = u.next_pair();
+        const BsdfSample r = surface_bsdf_sample(s, wo, u_lobe, u.next_pair(), all_features);
+        if (!(r.pdf > 0.0f)) {
+            continue;
+        }
+        const BsdfValue v = surface_bsdf_eval_pdf(s, wo, r.direction, all_features);
+        ++drawn.at(model);
+        different += close(r.pdf, v.pdf, 1e-3) && length(r.weight - v.value / v.pdf) < 1e-3f * length(r.weight) + 1e-6f ? 0 : 1;
+    }
+    CHECK(different == 0);
+    CHECK(*std::min_element(drawn.begin(), drawn.end()) > 12000);
 }
 
 TEST_CASE("A tilted microfacet map neither makes light nor loses any") {
