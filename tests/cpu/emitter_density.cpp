@@ -19,7 +19,9 @@ struct Fixture {
     EmbreeScene embree;
     Kernel kernel;
 
-    Fixture() : packed(pack_scene(lamp(), statistical_settings(4, 4, Integrator::path, 1))), embree(packed), kernel{packed, packed.constants, {{embree}}} {}
+    Fixture()
+        : packed(pack_scene(lamp(), statistical_settings(4, 4, Integrator::path, 1))),
+          embree(packed), kernel{packed, packed.constants, {{embree}}} {}
 
     static Scene lamp() {
         Scene scene;
