@@ -1,4 +1,4 @@
-#include "program.h"
+#include "commands/program.h"
 
 int main(int argc, char** argv) {
     return diptych::app::run_program(argc, argv);

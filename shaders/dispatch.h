@@ -2,7 +2,7 @@
 #ifndef DISPATCH_H
 #define DISPATCH_H
 
-#include "resampling_memory.h"
+#include "restir/resampling_memory.h"
 
 SHARED_BEGIN
 

@@ -7,9 +7,9 @@
 
 #include "display.h"
 #include "display_colors.h"
-#include "film_pixel.h"
-#include "resampling_memory.h"
-#include "tonemap.h"
+#include "film/film_pixel.h"
+#include "restir/resampling_memory.h"
+#include "film/tonemap.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;  // as many as there are bins
 layout(set = 0, binding = 0, rgba8) uniform writeonly image2D picture;

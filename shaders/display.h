@@ -2,7 +2,7 @@
 #ifndef DISPLAY_H
 #define DISPLAY_H
 
-#include "compat.h"
+#include "language/compat.h"
 
 SHARED_BEGIN
 

@@ -3,9 +3,9 @@
 #ifndef DISPLAY_COLORS_H
 #define DISPLAY_COLORS_H
 
-#include "elementary.h"
-#include "magma.h"
-#include "rng.h"
+#include "numbers/elementary.h"
+#include "film/magma.h"
+#include "numbers/rng.h"
 
 SHARED_BEGIN
 

@@ -2,7 +2,7 @@
 #ifndef PAYLOAD_GLSL
 #define PAYLOAD_GLSL
 
-#include "hit.h"
+#include "geometry/hit.h"
 
 #define CLOSEST_PAYLOAD 0
 #define SHADOW_PAYLOAD 1

@@ -3,7 +3,7 @@
 
 #include "region.glsl"
 #include "resampling_memory.glsl"
-#include "candidates.kernel.h"
+#include "restir/candidates.kernel.h"
 
 shared uint group_listed;
 shared uint first_listed;

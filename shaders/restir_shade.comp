@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "resampling_memory.glsl"
-#include "resampled_path.kernel.h"
+#include "restir/resampled_path.kernel.h"
 #include "film_store.glsl"
 #include "wave_paths.glsl"
 #include "wave_lists.glsl"

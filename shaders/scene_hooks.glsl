@@ -6,13 +6,13 @@
 #extension GL_EXT_buffer_reference : require
 
 #include "dispatch.h"
-#include "hit.h"
+#include "geometry/hit.h"
 #include "wave.h"
-#include "film_pixel.h"
-#include "path_record.h"
-#include "scene_buffers.h"
-#include "resampling_memory.h"
-#include "scene_features.h"
+#include "film/film_pixel.h"
+#include "path/path_record.h"
+#include "language/scene_buffers.h"
+#include "restir/resampling_memory.h"
+#include "language/scene_features.h"
 
 #ifndef RECORD
 #define RECORD(field, value)
@@ -71,7 +71,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer wave_hits_bu
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer wave_shadows_buffer { WaveShadow data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer wave_counts_buffer { WaveCounts data[]; };
 
-// Mirrored by vk_backend/scene_addresses.h.
+// Mirrored by vk_backend/memory/scene_addresses.h.
 layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
 #define DECLARE_ADDRESS(Type, name) name##_buffer name;
     SCENE_BUFFERS(DECLARE_ADDRESS)

@@ -2,7 +2,7 @@
 #ifndef WAVE_H
 #define WAVE_H
 
-#include "compat.h"
+#include "language/compat.h"
 
 SHARED_BEGIN
 

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "scene_hooks.glsl"
-#include "path.kernel.h"
+#include "path/path.kernel.h"
 #include "wave_paths.glsl"
 
 layout(local_size_x = WAVE_GROUP) in;

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "scene_hooks.glsl"
-#include "path.kernel.h"
+#include "path/path.kernel.h"
 #include "wave_paths.glsl"
 #include "film_store.glsl"
 

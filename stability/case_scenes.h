@@ -3,7 +3,7 @@
 
 #include "case_parts.h"
 #include "render/film.h"
-#include "scene/generate_shapes.h"
+#include "generate/shapes.h"
 
 namespace diptych::stability {
 

@@ -1,11 +1,11 @@
 #include "error.h"
 #include "stability_backend.h"
 #if DIPTYCH_VULKAN
-#include "compute_shader.h"
-#include "readback.h"
+#include "device/compute_shader.h"
+#include "memory/readback.h"
 #include "stability_shader_binaries.h"
-#include "upload.h"
-#include "vulkan_renderer.h"
+#include "memory/upload.h"
+#include "renderer/vulkan_renderer.h"
 #endif
 
 namespace diptych::stability {

@@ -1,10 +1,10 @@
 #include "vulkan_device.h"
 
-#include "devices.h"
+#include "device/devices.h"
 #include "error.h"
-#include "gpu.h"
+#include "device/gpu.h"
 #include "skipping.h"
-#include "validation.h"
+#include "device/validation.h"
 
 namespace diptych::tests {
 

@@ -5,7 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "render/setting_ranges.h"
-#include "scene/pose.h"
+#include "pose/pose.h"
 
 namespace diptych::app {
 

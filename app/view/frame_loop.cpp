@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "render/render_metadata.h"
+#include "render/metadata.h"
 #include "render/settings_names.h"
 #include "scene/orbit.h"
-#include "scene/pose.h"
-#include "scene_setup.h"
+#include "pose/pose.h"
+#include "session/scene_setup.h"
 #include "view/invalidation.h"
 #include "view/panel_engine.h"
 #include "view/view_request.h"

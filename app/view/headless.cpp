@@ -7,14 +7,14 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "backend.h"
-#include "command.h"
+#include "session/backend.h"
+#include "commands/command.h"
 #include "error.h"
 #include "image/image_file.h"
-#include "interrupt.h"
+#include "console/interrupt.h"
 #include "render/settings_names.h"
-#include "render_picture.h"
-#include "report.h"
+#include "commands/render/picture.h"
+#include "console/report.h"
 #include "view/camera_control.h"
 #include "view/frame_loop.h"
 #include "view/picture_pass.h"

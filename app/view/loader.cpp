@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "error.h"
-#include "report.h"
-#include "scene/gltf_files.h"
+#include "console/report.h"
+#include "gltf/files.h"
 #include "image/picture_name.h"
-#include "scene_setup.h"
+#include "session/scene_setup.h"
 
 namespace diptych::app {
 

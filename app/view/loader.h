@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "render/render_request.h"
+#include "render/request.h"
 #include "scene/default_camera.h"
 #include "scene/scene.h"
 

@@ -1,7 +1,7 @@
 #include "view/panel_device.h"
 
 #if DIPTYCH_VULKAN
-#include "path_renderer.h"
+#include "renderer/path_renderer.h"
 #endif
 
 namespace diptych::app {

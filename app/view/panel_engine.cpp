@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "error.h"
-#include "pack_requested.h"
+#include "session/pack_requested.h"
 #include "render/seeds.h"
-#include "report.h"
-#include "scene/pose.h"
-#include "scene_setup.h"
+#include "console/report.h"
+#include "pose/pose.h"
+#include "session/scene_setup.h"
 #include "view/film_figures.h"
 #include "view/panel_device.h"
 #include "view/view_request.h"

@@ -14,12 +14,12 @@
 
 #include "pack/packed_scene.h"
 #include "render/film_statistics.h"
-#include "render/render_metadata.h"
+#include "render/metadata.h"
 #include "render/renderer.h"
 #include "view/view_state.h"
 
 namespace diptych {
-struct DeviceFilm;  // vk_backend/device_film.h
+struct DeviceFilm;  // vk_backend/memory/device_film.h
 }
 
 namespace diptych::app {

@@ -5,9 +5,9 @@
 
 #include "error.h"
 #if DIPTYCH_VULKAN
-#include "commands.h"
-#include "display_pass.h"
-#include "vulkan_renderer.h"
+#include "device/commands.h"
+#include "display/display_pass.h"
+#include "renderer/vulkan_renderer.h"
 #endif
 
 namespace diptych::app {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/pose.h"
+#include "pose/pose.h"
 
 namespace diptych::app {
 

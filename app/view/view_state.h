@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "image/tonemap_image.h"
-#include "render/render_request.h"
+#include "render/request.h"
 #include "scene/scene.h"
 
 namespace diptych::app {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "display_pass.h"
+#include "display/display_pass.h"
 #include "view/view_state.h"
 #include "window/legend.h"
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "commands.h"
+#include "device/commands.h"
 #include "shader_binaries.h"
 
 namespace diptych::app {

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "buffer.h"
-#include "gpu.h"
-#include "swapchain.h"
+#include "memory/buffer.h"
+#include "device/gpu.h"
+#include "display/swapchain.h"
 
 struct ImDrawData;
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "report.h"
+#include "console/report.h"
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 

@@ -10,8 +10,8 @@
 
 #include "backend/cpu_renderer.h"
 #include "image/tonemap_image.h"
-#include "validation.h"
-#include "vulkan_renderer.h"
+#include "device/validation.h"
+#include "renderer/vulkan_renderer.h"
 
 namespace diptych::app {
 

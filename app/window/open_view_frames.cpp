@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "error.h"
-#include "interrupt.h"
+#include "console/interrupt.h"
 #include "view/invalidation.h"
 #include "window/display_choice.h"
 

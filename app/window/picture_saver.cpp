@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "render_picture.h"
+#include "commands/render/picture.h"
 
 namespace diptych::app {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "replay_text.h"
+#include "commands/replay/text.h"
 #include "view/frame_loop.h"
 
 namespace diptych::app {

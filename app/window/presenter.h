@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "device_film.h"
-#include "display_pass.h"
-#include "swapchain.h"
+#include "memory/device_film.h"
+#include "display/display_pass.h"
+#include "display/swapchain.h"
 #include "window/imgui_pass.h"
 #include "window/window.h"
 

@@ -1,6 +1,6 @@
 #include "window/view_window.h"
 
-#include "command.h"
+#include "commands/command.h"
 #include "window/open_view.h"
 
 namespace diptych::app {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "error.h"
-#include "magma.h"
+#include "film/magma.h"
 
 namespace diptych {
 namespace {

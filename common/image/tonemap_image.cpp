@@ -4,7 +4,7 @@
 #include <string>
 
 #include "error.h"
-#include "tonemap.h"
+#include "film/tonemap.h"
 
 namespace diptych {
 namespace {

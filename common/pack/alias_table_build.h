@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "scene_types.h"
+#include "language/scene_types.h"
 
 namespace diptych {
 

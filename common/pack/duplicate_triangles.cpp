@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "compat.h"
+#include "language/compat.h"
 
 namespace diptych {
 namespace {

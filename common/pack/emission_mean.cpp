@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "leaves.h"
+#include "language/leaves.h"
 
 namespace diptych {
 namespace shared {
@@ -25,7 +25,7 @@ struct EmissionKernel {
 #undef DEFINE_LOAD
 
 #define RECORD(field, value)
-#include "light.kernel.h"
+#include "lights/light.kernel.h"
 #undef RECORD
 };
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <utility>
 
-#include "bsdf.h"
-#include "scene_features.h"
+#include "bsdf/bsdf.h"
+#include "language/scene_features.h"
 
 namespace diptych {
 namespace {

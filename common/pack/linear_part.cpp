@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "compat.h"
+#include "language/compat.h"
 
 namespace diptych {
 namespace {

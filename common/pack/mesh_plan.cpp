@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "compat.h"
+#include "language/compat.h"
 #include "error.h"
 #include "pack/duplicate_triangles.h"
 #include "pack/linear_part.h"

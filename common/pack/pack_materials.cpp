@@ -1,10 +1,10 @@
 #include <cstring>
 #include <map>
 
-#include "bsdf.h"
+#include "bsdf/bsdf.h"
 #include "pack/features.h"
 #include "pack/pack_parts.h"
-#include "tonemap.h"
+#include "film/tonemap.h"
 
 namespace diptych {
 namespace {

@@ -2,7 +2,7 @@
 #include <optional>
 #include <utility>
 
-#include "compat.h"
+#include "language/compat.h"
 #include "pack/cut_triangles.h"
 #include "pack/linear_part.h"
 #include "pack/pack_parts.h"

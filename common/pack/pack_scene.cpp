@@ -6,7 +6,7 @@
 #include "error.h"
 #include "pack/features.h"
 #include "pack/pack_parts.h"
-#include "scene/pose.h"
+#include "pose/pose.h"
 
 namespace diptych {
 namespace {

@@ -8,8 +8,8 @@
 #include "pack/linear_part.h"
 #include "render/settings.h"
 #include "scene/scene.h"
-#include "scene_buffers.h"
-#include "scene_features.h"
+#include "language/scene_buffers.h"
+#include "language/scene_features.h"
 
 namespace diptych {
 

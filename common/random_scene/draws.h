@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "scene/generate_random.h"
+#include "generate/random.h"
 
 namespace diptych {
 

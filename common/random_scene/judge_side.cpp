@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/pose.h"
+#include "pose/pose.h"
 
 namespace diptych {
 

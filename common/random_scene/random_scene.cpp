@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "random_scene/random_parts.h"
+#include "random_scene/parts.h"
 
 namespace diptych {
 

@@ -8,8 +8,8 @@
 #include "image/image_file.h"
 #include "render/settings_names.h"
 #include "scene/environment_load.h"
-#include "scene/gltf_import.h"
-#include "scene/gltf_write.h"
+#include "gltf/import.h"
+#include "gltf/write.h"
 
 namespace diptych {
 

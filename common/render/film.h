@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "film_pixel.h"
+#include "film/film_pixel.h"
 #include "image/layered_image.h"
 
 namespace diptych {

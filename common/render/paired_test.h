@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "path_record.h"
+#include "path/path_record.h"
 
 namespace diptych {
 

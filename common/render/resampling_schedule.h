@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "resampling_memory.h"
-#include "scene_types.h"
+#include "restir/resampling_memory.h"
+#include "language/scene_types.h"
 
 namespace diptych {
 

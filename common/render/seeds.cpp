@@ -3,7 +3,7 @@
 #include <cassert>
 #include <string>
 
-#include "compat.h"
+#include "language/compat.h"
 #include "error.h"
 
 namespace diptych {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "scene_types.h"
+#include "language/scene_types.h"
 
 namespace diptych {
 namespace {

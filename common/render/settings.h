@@ -17,7 +17,7 @@ inline bool resamples(Integrator integrator) {
     return integrator == Integrator::ris || integrator == Integrator::restir;
 }
 
-/// How `ris` and `restir` resample; see ResamplingConstants in shared_glsl_cpp/scene_types.h.
+/// How `ris` and `restir` resample; see ResamplingConstants in shared_glsl_cpp/language/scene_types.h.
 struct ResamplingSettings {
     std::uint32_t light_candidates = 8;
     float near_share = 0.5F;  // of them, rounded down: picked by power times cosine over the square of the distance

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/animation.h"
+#include "pose/animation.h"
 #include "scene/warnings.h"
 
 namespace diptych {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "backend/resampling_films.h"
-#include "embree_scene.h"
-#include "leaves.h"
+#include "embree/embree_scene.h"
+#include "language/leaves.h"
 #include "pack/packed_scene.h"
 
 namespace diptych {
@@ -136,8 +136,8 @@ struct CpuKernel {
     if constexpr (Tracer::records_paths) {                                                                             \
         tracer.vertices.back().field = (value);                                                                        \
     }
-#include "restir.kernel.h"
-#include "trace_path.kernel.h"
+#include "restir/restir.kernel.h"
+#include "path/trace_path.kernel.h"
 #undef RECORD
 };
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "embree_scene.h"
+#include "embree/embree_scene.h"
 #include "pack/packed_scene.h"
 #include "render/recorded_path.h"
 

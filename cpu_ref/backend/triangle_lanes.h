@@ -1,7 +1,7 @@
 // Points on emissive triangles, many at a time.
 #pragma once
 
-#include "leaves.h"
+#include "language/leaves.h"
 
 namespace diptych {
 

@@ -7,8 +7,8 @@
 
 #include "image/layered_image.h"
 #include "process.h"
-#include "scene/generate_shapes.h"
-#include "scene/gltf_write.h"
+#include "generate/shapes.h"
+#include "gltf/write.h"
 
 using namespace diptych;
 using namespace diptych::tests;

@@ -9,10 +9,10 @@
 #include "image/metrics.h"
 #include "pack/packed_scene.h"
 #include "process.h"
-#include "scene/gltf_import.h"
-#include "scene/pose.h"
+#include "gltf/import.h"
+#include "pose/pose.h"
 #if DIPTYCH_VULKAN
-#include "vulkan_renderer.h"
+#include "renderer/vulkan_renderer.h"
 #endif
 
 using namespace diptych;

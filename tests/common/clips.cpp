@@ -1,13 +1,13 @@
 // Which clips of a scene play.
-#include "scene/clips.h"
+#include "pose/clips.h"
 
 #include <cmath>
 
 #include "catch.h"
 #include "error.h"
 #include "gltf_fixture.h"
-#include "scene/gltf_import.h"
-#include "scene/pose.h"
+#include "gltf/import.h"
+#include "pose/pose.h"
 
 using namespace diptych;
 using namespace diptych::tests;

@@ -1,7 +1,7 @@
 // What the tests of generated scenes share: a folder that goes away, whole files, geometry in world space.
 #pragma once
 
-#include "scene/generate.h"
+#include "generate/generate.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,8 +1,8 @@
 // What is written is what is read: write_gltf against load_gltf.
 #include "catch.h"
 #include "generate_fixture.h"
-#include "scene/gltf_import.h"
-#include "scene/gltf_write.h"
+#include "gltf/import.h"
+#include "gltf/write.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>

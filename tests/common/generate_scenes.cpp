@@ -2,7 +2,7 @@
 #include "catch.h"
 #include "error.h"
 #include "generate_fixture.h"
-#include "scene/gltf_write.h"
+#include "gltf/write.h"
 
 #include <algorithm>
 #include <cmath>

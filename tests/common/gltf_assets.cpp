@@ -8,7 +8,7 @@
 #include "error.h"
 #include "gltf_fixture.h"
 #include "scene/default_camera.h"
-#include "scene/gltf_import.h"
+#include "gltf/import.h"
 
 using namespace diptych;
 using namespace diptych::tests;

@@ -2,7 +2,7 @@
 #include "catch.h"
 #include "error.h"
 #include "gltf_fixture.h"
-#include "scene/gltf_import.h"
+#include "gltf/import.h"
 
 using namespace diptych;
 using namespace diptych::tests;

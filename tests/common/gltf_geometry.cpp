@@ -4,8 +4,8 @@
 #include "catch.h"
 #include "error.h"
 #include "gltf_fixture.h"
-#include "scene/gltf_import.h"
-#include "scene/gltf_tangents.h"
+#include "gltf/import.h"
+#include "gltf/tangents.h"
 
 using namespace diptych;
 using namespace diptych::tests;

@@ -6,9 +6,9 @@
 #include "gltf_fixture.h"
 #include "image/image.h"
 #include "image/image_file.h"
-#include "scene/clips.h"
-#include "scene/gltf_import.h"
-#include "scene/pose.h"
+#include "pose/clips.h"
+#include "gltf/import.h"
+#include "pose/pose.h"
 
 using namespace diptych;
 using namespace diptych::tests;

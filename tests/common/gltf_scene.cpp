@@ -6,7 +6,7 @@
 #include "catch.h"
 #include "gltf_fixture.h"
 #include "scene/default_camera.h"
-#include "scene/gltf_import.h"
+#include "gltf/import.h"
 
 using namespace diptych;
 using namespace diptych::tests;

@@ -7,9 +7,9 @@
 
 #include "catch.h"
 #include "gltf_fixture.h"
-#include "scene/generate.h"
-#include "scene/generate_shapes.h"
-#include "scene/gltf_import.h"
+#include "generate/generate.h"
+#include "generate/shapes.h"
+#include "gltf/import.h"
 #include "scene/own_light.h"
 
 using namespace diptych;

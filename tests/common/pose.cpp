@@ -1,13 +1,13 @@
 // Scenes that move: what a file's animations do to the logical scene, and what is refused.
-#include "scene/pose.h"
+#include "pose/pose.h"
 
 #include <cmath>
 
 #include "catch.h"
 #include "error.h"
 #include "gltf_fixture.h"
-#include "scene/clips.h"
-#include "scene/gltf_import.h"
+#include "pose/clips.h"
+#include "gltf/import.h"
 
 using namespace diptych;
 using namespace diptych::tests;

@@ -1,7 +1,7 @@
 #include "catch.h"
 
 #include "error.h"
-#include "render/render_metadata.h"
+#include "render/metadata.h"
 #include "render/settings_names.h"
 
 using namespace diptych;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "catch.h"
-#include "scene/generate_shapes.h"
+#include "generate/shapes.h"
 #include "scene/surface_points.h"
 
 using namespace diptych;

@@ -5,8 +5,8 @@
 
 #include "catch.h"
 #include "error.h"
-#include "scene/generate.h"
-#include "scene/pose.h"
+#include "generate/generate.h"
+#include "pose/pose.h"
 #include "scene/sun.h"
 
 using namespace diptych;

@@ -2,10 +2,10 @@
 #include <limits>
 #include <random>
 
-#include "embree_scene.h"
+#include "embree/embree_scene.h"
 #include "render_fixture.h"
-#include "scene/generate.h"
-#include "scene/pose.h"
+#include "generate/generate.h"
+#include "pose/pose.h"
 
 namespace diptych::tests {
 namespace {

@@ -1,7 +1,7 @@
 // Film sums: what is dropped, and how they hold over ten million samples.
 #include <random>
 
-#include "film_pixel.h"
+#include "film/film_pixel.h"
 #include "render_fixture.h"
 
 using namespace diptych;

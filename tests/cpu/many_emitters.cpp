@@ -3,7 +3,7 @@
 #include <ctime>
 
 #include "render_fixture.h"
-#include "scene/generate.h"
+#include "generate/generate.h"
 
 using namespace diptych;
 using namespace diptych::tests;

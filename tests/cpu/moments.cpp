@@ -1,9 +1,9 @@
 // A renderer that moved on shows what a new one shows.
-#include "embree_scene.h"
+#include "embree/embree_scene.h"
 #include "error.h"
 #include "render_fixture.h"
-#include "scene/generate.h"
-#include "scene/pose.h"
+#include "generate/generate.h"
+#include "pose/pose.h"
 
 using namespace diptych;
 using namespace diptych::tests;

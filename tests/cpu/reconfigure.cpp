@@ -1,7 +1,7 @@
 // A renderer that went on with other settings shows what a new one shows.
 #include "render_fixture.h"
-#include "scene/generate.h"
-#include "scene/pose.h"
+#include "generate/generate.h"
+#include "pose/pose.h"
 
 using namespace diptych;
 using namespace diptych::tests;

@@ -14,8 +14,8 @@
 #include "render/film.h"
 #include "render/film_statistics.h"
 #include "render/settings_names.h"
-#include "scene/generate_shapes.h"
-#include "scene/gltf_import.h"
+#include "generate/shapes.h"
+#include "gltf/import.h"
 
 namespace diptych::tests {
 

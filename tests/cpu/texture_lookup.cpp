@@ -1,9 +1,9 @@
 // Filtered texture lookups against an implementation of their own, in double.
 #include <random>
 
-#include "leaves.h"
+#include "language/leaves.h"
 #include "render_fixture.h"
-#include "tonemap.h"
+#include "film/tonemap.h"
 
 namespace diptych {
 namespace shared {
@@ -24,7 +24,7 @@ struct TextureKernel {
     uint load_texels(uint i) const { return packed.texels.at(i); }
     float load_srgb_table(uint i) const { return packed.srgb_table.at(i); }
 
-#include "texture.kernel.h"
+#include "geometry/texture.kernel.h"
 };
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 #include "extremes.h"
 #include "render/film.h"
-#include "scene/generate.h"
-#include "scene/gltf_import.h"
-#include "scene/gltf_write.h"
+#include "generate/generate.h"
+#include "gltf/import.h"
+#include "gltf/write.h"
 #if DIPTYCH_VULKAN
 #include "vulkan_device.h"
 #endif

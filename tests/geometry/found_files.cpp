@@ -8,8 +8,8 @@
 #include "pack/features.h"
 #include "scene/default_camera.h"
 #include "scene/environment_load.h"
-#include "scene/gltf_import.h"
-#include "scene/pose.h"
+#include "gltf/import.h"
+#include "pose/pose.h"
 
 using namespace diptych;
 using namespace diptych::tests;

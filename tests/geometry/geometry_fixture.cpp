@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "backend/cpu_renderer.h"
-#include "gpu.h"
+#include "device/gpu.h"
 #include "oracle_renderer/oracle_renderer.h"
-#include "path_renderer.h"
+#include "renderer/path_renderer.h"
 #include "render/film_statistics.h"
 
 namespace diptych::tests {

@@ -7,7 +7,7 @@
 #include "catch.h"
 #include "pack/packed_scene.h"
 #include "render/film.h"
-#include "scene/generate_shapes.h"
+#include "generate/shapes.h"
 #include "vulkan_device.h"
 
 namespace diptych::tests {

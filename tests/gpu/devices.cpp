@@ -1,11 +1,11 @@
 // Choosing a device, and machines that have none.
-#include "devices.h"
+#include "device/devices.h"
 
 #include <cstdlib>
 #include <optional>
 
 #include "gpu_fixture.h"
-#include "loader.h"
+#include "device/loader.h"
 
 namespace diptych::tests {
 namespace {

@@ -1,5 +1,5 @@
 // The window's picture against what the host makes of the same films.
-#include "display_pass.h"
+#include "display/display_pass.h"
 
 #include <atomic>
 #include <cmath>
@@ -7,13 +7,13 @@
 #include <functional>
 
 #include "../../shaders/display_colors.h"
-#include "commands.h"
+#include "device/commands.h"
 #include "gpu_fixture.h"
-#include "path_renderer.h"
+#include "renderer/path_renderer.h"
 #include "render/film.h"
 #include "render/film_statistics.h"
-#include "scene/generate.h"
-#include "tonemap.h"
+#include "generate/generate.h"
+#include "film/tonemap.h"
 
 namespace diptych::tests {
 namespace {

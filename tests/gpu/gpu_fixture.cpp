@@ -4,15 +4,15 @@
 #include <cmath>
 #include <cstring>
 
-#include "acceleration.h"
-#include "bindings.h"
-#include "commands.h"
-#include "film_memory.h"
-#include "path_renderer.h"
-#include "pipeline.h"
-#include "scene/generate.h"
+#include "structures/acceleration.h"
+#include "device/bindings.h"
+#include "device/commands.h"
+#include "memory/film_memory.h"
+#include "renderer/path_renderer.h"
+#include "device/pipeline.h"
+#include "generate/generate.h"
 #include "test_shader_binaries.h"
-#include "upload.h"
+#include "memory/upload.h"
 
 namespace diptych::tests {
 

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "../../shaders/dispatch.h"
-#include "acceleration.h"
-#include "hit.h"
+#include "structures/acceleration.h"
+#include "geometry/hit.h"
 #include "pack/packed_scene.h"
 #include "vulkan_device.h"
-#include "vulkan_renderer.h"
+#include "renderer/vulkan_renderer.h"
 
 namespace diptych::tests {
 

@@ -1,5 +1,5 @@
 // Barriers between passes: enough of them, and none too many.
-#include "hazards.h"
+#include "passes/hazards.h"
 
 #include <algorithm>
 #include <random>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "catch.h"
-#include "pass_table.h"
+#include "passes/pass_table.h"
 
 namespace diptych::tests {
 namespace {

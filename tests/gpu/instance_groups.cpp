@@ -1,5 +1,5 @@
 // Instances that stand still, built together.
-#include "instance_groups.h"
+#include "structures/instance_groups.h"
 
 #include <cmath>
 #include <cstring>
@@ -7,8 +7,8 @@
 
 #include "error.h"
 #include "gpu_fixture.h"
-#include "path_renderer.h"
-#include "scene/generate_shapes.h"
+#include "renderer/path_renderer.h"
+#include "generate/shapes.h"
 
 namespace diptych::tests {
 namespace {

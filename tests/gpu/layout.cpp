@@ -6,11 +6,11 @@
 #include "../../shaders/display.h"
 #include "../../shaders/wave.h"
 #include "catch.h"
-#include "film_pixel.h"
-#include "hit.h"
-#include "path_record.h"
-#include "scene_addresses.h"
-#include "scene_types.h"
+#include "film/film_pixel.h"
+#include "geometry/hit.h"
+#include "path/path_record.h"
+#include "memory/scene_addresses.h"
+#include "language/scene_types.h"
 #include "shader_binaries.h"
 
 namespace diptych::tests {

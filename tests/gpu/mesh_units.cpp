@@ -1,11 +1,11 @@
 // Rays that leave a triangle which a matrix places: the driver carries them into the mesh's space by an inverse of its
 // own.
-#include "mesh_units.h"
+#include "structures/mesh_units.h"
 
 #include <cmath>
 
 #include "gpu_fixture.h"
-#include "ray_offset.h"
+#include "geometry/ray_offset.h"
 
 namespace diptych::tests {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "error.h"
 #include "gpu_fixture.h"
-#include "path_renderer.h"
-#include "scene/generate.h"
-#include "scene/pose.h"
+#include "renderer/path_renderer.h"
+#include "generate/generate.h"
+#include "pose/pose.h"
 
 namespace diptych::tests {
 namespace {

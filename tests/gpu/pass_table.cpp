@@ -1,5 +1,5 @@
 // The table of passes, from which barriers are made, against what the shaders do.
-#include "pass_table.h"
+#include "passes/pass_table.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "catch.h"
-#include "scene_buffers.h"
+#include "language/scene_buffers.h"
 #include "shader_binaries.h"
 #include "spirv_accesses.h"
 
@@ -152,7 +152,10 @@ TEST_CASE("Every shader that begins a pass is in the table of passes") {
 // Images and the window's frames are not resources of the table: their barriers change layouts too.
 TEST_CASE("Barriers of the device's memory are recorded in one place alone") {
     const std::set<std::string> exempt = {"recorder.cpp", "display_pass.cpp"};
-    for (const auto& file : std::filesystem::directory_iterator(DIPTYCH_SOURCE_DIR "/vk_backend")) {
+    for (const auto& file : std::filesystem::recursive_directory_iterator(DIPTYCH_SOURCE_DIR "/vk_backend")) {
+        if (!file.is_regular_file()) {
+            continue;
+        }
         std::ifstream stream(file.path());
         const std::string text{std::istreambuf_iterator<char>(stream), {}};
         INFO(file.path().filename());

@@ -1,4 +1,4 @@
-#include "pipeline_cache.h"
+#include "device/pipeline_cache.h"
 
 #include <filesystem>
 #include <fstream>

@@ -6,8 +6,8 @@
 
 #include "error.h"
 #include "gpu_fixture.h"
-#include "path_renderer.h"
-#include "scene/generate.h"
+#include "renderer/path_renderer.h"
+#include "generate/generate.h"
 
 namespace diptych::tests {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "gpu_fixture.h"
-#include "path_renderer.h"
+#include "renderer/path_renderer.h"
 
 namespace diptych::tests {
 namespace {

@@ -3,18 +3,18 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-#include "alias_table.h"
-#include "camera.h"
-#include "elementary.h"
-#include "environment_mapping.h"
-#include "frame.h"
-#include "mis.h"
-#include "ray_offset.h"
-#include "rng.h"
-#include "sampler.h"
-#include "sampling.h"
-#include "tonemap.h"
-#include "triangle_sampling.h"
+#include "numbers/alias_table.h"
+#include "geometry/camera.h"
+#include "numbers/elementary.h"
+#include "lights/environment_mapping.h"
+#include "bsdf/frame.h"
+#include "path/mis.h"
+#include "geometry/ray_offset.h"
+#include "numbers/rng.h"
+#include "numbers/sampler.h"
+#include "numbers/sampling.h"
+#include "film/tonemap.h"
+#include "numbers/triangle_sampling.h"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) buffer Output { float results[]; };

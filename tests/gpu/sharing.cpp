@@ -3,10 +3,10 @@
 #include <cstring>
 #include <thread>
 
-#include "commands.h"
-#include "display_pass.h"
+#include "device/commands.h"
+#include "display/display_pass.h"
 #include "gpu_fixture.h"
-#include "path_renderer.h"
+#include "renderer/path_renderer.h"
 
 namespace diptych::tests {
 namespace {

@@ -1,5 +1,5 @@
 // How a render is cut into dispatches; needs no device.
-#include "slices.h"
+#include "renderer/slices.h"
 
 #include <map>
 #include <tuple>

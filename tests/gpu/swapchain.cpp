@@ -1,5 +1,5 @@
 // Frames on a surface without a window.
-#include "swapchain.h"
+#include "display/swapchain.h"
 
 #include <algorithm>
 #include <array>

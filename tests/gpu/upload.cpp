@@ -1,10 +1,10 @@
 // What is uploaded through a staging buffer is what the device then holds.
-#include "upload.h"
+#include "memory/upload.h"
 
 #include <numeric>
 
 #include "gpu_fixture.h"
-#include "readback.h"
+#include "memory/readback.h"
 
 namespace diptych::tests {
 namespace {

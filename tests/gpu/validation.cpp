@@ -1,8 +1,8 @@
 // That validation would speak, if there were something to say.
-#include "validation.h"
+#include "device/validation.h"
 
-#include "buffer.h"
-#include "commands.h"
+#include "memory/buffer.h"
+#include "device/commands.h"
 #include "gpu_fixture.h"
 
 namespace diptych::tests {

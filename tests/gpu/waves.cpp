@@ -1,9 +1,9 @@
 // Paths in waves: how many are in flight, and that all come to their end.
-#include "path_waves.h"
+#include "passes/path_waves.h"
 
 #include "backend/cpu_renderer.h"
 #include "gpu_fixture.h"
-#include "path_renderer.h"
+#include "renderer/path_renderer.h"
 
 namespace diptych::tests {
 namespace {

@@ -19,15 +19,15 @@ class Target:
 
 
 TARGETS = {
-    'shared': Target(('shared_glsl_cpp/*.h',), ('shared', 'pack', 'common', 'cpu', 'restir', 'oracle', 'geometry',
+    'shared': Target(('shared_glsl_cpp/**/*.h',), ('shared', 'pack', 'common', 'cpu', 'restir', 'oracle', 'geometry',
                                                 'panels', 'extremes', 'random', 'view', 'app'),
                      False, 0.95, 240),
-    'host': Target(('vk_backend/*.cpp', 'vk_backend/*.h', 'common/pack/*.cpp', 'common/pack/*.h', 'common/stats/*.cpp',
+    'host': Target(('vk_backend/**/*.cpp', 'vk_backend/**/*.h', 'common/pack/*.cpp', 'common/pack/*.h', 'common/stats/*.cpp',
                     'common/stats/*.h'), ('pack', 'common', 'gpu', 'cpu', 'panels', 'geometry', 'restir', 'extremes',
                                           'random', 'view', 'app'), True, 0.90, 72),
 }
 # compat.h is the language itself; the bench and the window's images are seen by no test of ./test that could tell.
-LEFT_OUT = {'shared_glsl_cpp/compat.h', 'vk_backend/traversal_bench.cpp', 'vk_backend/swapchain.cpp'}
+LEFT_OUT = {'shared_glsl_cpp/language/compat.h', 'vk_backend/renderer/traversal_bench.cpp', 'vk_backend/display/swapchain.cpp'}
 
 
 @dataclass
@@ -64,7 +64,7 @@ def sites_of(root, target):
             texts[name] = path.read_text()
     everything = '\n'.join(texts.values())
     known = frozenset(re.findall(r'[A-Za-z_]\w*', everything))
-    constants = (root / 'shared_glsl_cpp/compat.h').read_text() + everything
+    constants = (root / 'shared_glsl_cpp/language/compat.h').read_text() + everything
     constants = frozenset(re.findall(r'\bCONST float ([A-Z_]+) =', constants))
     # The hooks that load from buffers are made by a macro.
     buffers = re.findall(r'\bX\((?:\w+, )*(previous_\w+)', everything)

@@ -19,7 +19,7 @@ def copy_sources(root, tree, mutated):
     """All sources but the mutated ones, which are written with their mutants, so that nothing is compiled twice."""
     command = ['git', '-C', root, 'ls-files', '-co', '--exclude-standard']
     for name in subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines():
-        if (root / name).is_file() and name not in mutated and name != 'shared_glsl_cpp/compat.h':
+        if (root / name).is_file() and name not in mutated and name != 'shared_glsl_cpp/language/compat.h':
             write_changed(tree / name, (root / name).read_bytes())
             shutil.copymode(root / name, tree / name)
     assets = root.parent / 'shared'  # where tests look for files of others
@@ -31,7 +31,7 @@ def write_mutated(root, tree, texts, mutants):
     """Writes the mutated sources; returns where `blamed` is to look for each mutant."""
     write_changed(tree / 'shared_glsl_cpp/mutation_switch.h', SWITCH.replace('@COUNT@', str(len(mutants) + 1)))
     include = '#if defined(__cplusplus)\n#include "mutation_switch.h"\n#endif\n'
-    write_changed(tree / 'shared_glsl_cpp/compat.h', include + (root / 'shared_glsl_cpp/compat.h').read_text())
+    write_changed(tree / 'shared_glsl_cpp/language/compat.h', include + (root / 'shared_glsl_cpp/language/compat.h').read_text())
     places = {}
     for name, text in texts.items():
         inside = [(m.number, m.site) for m in mutants if m.file == name and m.outcome != 'not compiled']

@@ -7,7 +7,7 @@
 #include "oracle/random.h"
 #include "oracle/texture.h"
 #include "oracle_fixture.h"
-#include "scene/gltf_import.h"
+#include "gltf/import.h"
 
 namespace diptych::tests {
 

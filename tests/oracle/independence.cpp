@@ -21,7 +21,7 @@ const fs::path source_root = DIPTYCH_SOURCE_DIR;
 /// What an oracle's source must not see.
 const std::vector<std::string>& forbidden() {
     static const std::vector<std::string> folders = {"shared_glsl_cpp", "common/pack",     "common/render",
-                                                     "common/image",    "cpu_ref/backend", "cpu_ref/embree_scene",
+                                                     "common/image",    "cpu_ref/backend", "cpu_ref/embree",
                                                      "vk_backend"};
     return folders;
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "oracle/oracle.h"
-#include "scene/generate.h"
-#include "scene/generate_shapes.h"
+#include "generate/generate.h"
+#include "generate/shapes.h"
 
 namespace diptych::tests {
 

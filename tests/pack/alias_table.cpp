@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "alias_table.h"
+#include "numbers/alias_table.h"
 #include "catch.h"
 #include "pack/alias_table_build.h"
 

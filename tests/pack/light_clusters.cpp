@@ -4,8 +4,8 @@
 #include <set>
 
 #include "pack_fixture.h"
-#include "scene/generate.h"
-#include "scene/pose.h"
+#include "generate/generate.h"
+#include "pose/pose.h"
 
 using namespace diptych;
 using namespace diptych::tests;

@@ -3,8 +3,8 @@
 
 #include "error.h"
 #include "pack_fixture.h"
-#include "scene/generate.h"
-#include "scene/pose.h"
+#include "generate/generate.h"
+#include "pose/pose.h"
 
 using namespace diptych;
 using namespace diptych::tests;

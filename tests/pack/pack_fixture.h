@@ -4,7 +4,7 @@
 #include "catch.h"
 #include "pack/features.h"
 #include "pack/packed_scene.h"
-#include "scene/generate_shapes.h"
+#include "generate/shapes.h"
 
 namespace diptych::tests {
 

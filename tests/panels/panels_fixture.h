@@ -8,7 +8,7 @@
 #include "scene/default_camera.h"
 #include "scene/environment_load.h"
 #include "vulkan_device.h"
-#include "vulkan_renderer.h"
+#include "renderer/vulkan_renderer.h"
 
 namespace diptych::tests {
 

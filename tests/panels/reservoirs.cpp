@@ -3,9 +3,9 @@
 #include <cstdio>
 
 #include "../restir/chain_cases.h"
-#include "scene/pose.h"
+#include "pose/pose.h"
 #include "vulkan_device.h"
-#include "vulkan_renderer.h"
+#include "renderer/vulkan_renderer.h"
 
 namespace diptych::tests {
 namespace {

@@ -1,8 +1,8 @@
 // The chains of tests/restir on the device.
 #include "../restir/moving_cases.h"
-#include "loader.h"
+#include "device/loader.h"
 #include "vulkan_device.h"
-#include "vulkan_renderer.h"
+#include "renderer/vulkan_renderer.h"
 
 namespace diptych::tests {
 namespace {

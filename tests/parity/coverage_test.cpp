@@ -52,7 +52,7 @@ TEST_CASE("Every function of the leaf headers is called by a probe, and every pr
         }
     }
     std::size_t found = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(root / "shared_glsl_cpp")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "shared_glsl_cpp")) {
         if (!is_leaf(entry.path())) {
             continue;
         }

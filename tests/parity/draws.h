@@ -2,7 +2,7 @@
 #ifndef DRAWS_H
 #define DRAWS_H
 
-#include "leaves.h"
+#include "language/leaves.h"
 
 SHARED_BEGIN
 

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "catch.h"
-#include "compute_shader.h"
+#include "device/compute_shader.h"
 #include "probe_inputs.h"
 #include "probe_list.h"
-#include "readback.h"
+#include "memory/readback.h"
 #include "test_shader_binaries.h"
-#include "upload.h"
+#include "memory/upload.h"
 #include "vulkan_device.h"
 
 namespace diptych::tests {

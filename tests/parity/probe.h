@@ -3,8 +3,8 @@
 #ifndef PROBE_H
 #define PROBE_H
 
-#include "leaves.h"
-#include "tonemap.h"
+#include "language/leaves.h"
+#include "film/tonemap.h"
 
 SHARED_BEGIN
 

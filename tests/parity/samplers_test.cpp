@@ -6,11 +6,11 @@
 
 #include "../shared/direction_chi_square.h"
 #include "catch.h"
-#include "compute_shader.h"
+#include "device/compute_shader.h"
 #include "draws.h"
-#include "readback.h"
+#include "memory/readback.h"
 #include "test_shader_binaries.h"
-#include "upload.h"
+#include "memory/upload.h"
 #include "vulkan_device.h"
 
 namespace diptych::tests {

@@ -4,7 +4,7 @@
 #include "random_fixture.h"
 #include "random_scene/scene_files.h"
 #include "random_scene/shrink.h"
-#include "scene/pose.h"
+#include "pose/pose.h"
 
 using namespace diptych;
 using namespace diptych::tests;

@@ -9,7 +9,7 @@
 
 #include "catch.h"
 #include "random_scene/judge.h"
-#include "scene/generate_random.h"
+#include "generate/random.h"
 
 namespace diptych::tests {
 

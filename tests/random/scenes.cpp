@@ -8,9 +8,9 @@
 #include "render/settings_names.h"
 #include "skipping.h"
 #if DIPTYCH_VULKAN
-#include "gpu.h"
+#include "device/gpu.h"
 #include "vulkan_device.h"
-#include "vulkan_renderer.h"
+#include "renderer/vulkan_renderer.h"
 #endif
 
 using namespace diptych;

@@ -7,7 +7,7 @@
 #include "catch.h"
 #include "chains.h"
 #include "render/settings_names.h"
-#include "scene/generate.h"
+#include "generate/generate.h"
 
 namespace diptych::tests {
 

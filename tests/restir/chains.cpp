@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scene/orbit.h"
-#include "scene/pose.h"
+#include "pose/pose.h"
 
 namespace diptych::tests {
 namespace {

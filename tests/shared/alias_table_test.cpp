@@ -1,9 +1,9 @@
 // Picking from alias tables, and the weights of multiple importance sampling.
-#include "alias_table.h"
+#include "numbers/alias_table.h"
 
 #include "catch.h"
 #include "close.h"
-#include "mis.h"
+#include "path/mis.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "blinn_phong.h"
+#include "bsdf/blinn_phong.h"
 
 #include "catch.h"
 #include "direction_chi_square.h"

@@ -1,4 +1,4 @@
-#include "bsdf.h"
+#include "bsdf/bsdf.h"
 
 #include <bit>
 

@@ -1,10 +1,10 @@
 // Camera rays and the equirectangular map.
-#include "camera.h"
+#include "geometry/camera.h"
 
 #include "catch.h"
 #include "close.h"
-#include "environment_mapping.h"
-#include "rng.h"
+#include "lights/environment_mapping.h"
+#include "numbers/rng.h"
 
 #include <cmath>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "close.h"
-#include "compat.h"
+#include "language/compat.h"
 #include "stats/chi_square.h"
 #include "stats/multiple_testing.h"
 

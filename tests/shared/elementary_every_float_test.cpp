@@ -1,5 +1,5 @@
 // The largest errors of the elementary functions over every float of an interval, as a table.
-#include "elementary.h"
+#include "numbers/elementary.h"
 
 #include "catch.h"
 

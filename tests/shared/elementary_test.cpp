@@ -1,5 +1,5 @@
 // Elementary functions against double, at the bounds that their docstrings state.
-#include "elementary.h"
+#include "numbers/elementary.h"
 
 #include "catch.h"
 #include "close.h"

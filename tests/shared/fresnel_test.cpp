@@ -1,4 +1,4 @@
-#include "fresnel.h"
+#include "bsdf/fresnel.h"
 
 #include "catch.h"
 #include "direction_chi_square.h"

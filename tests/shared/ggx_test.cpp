@@ -1,4 +1,4 @@
-#include "ggx.h"
+#include "bsdf/ggx.h"
 
 #include "catch.h"
 #include "direction_chi_square.h"

@@ -1,5 +1,5 @@
 // Clusters of lights: what their distance makes them worth.
-#include "light_clusters.h"
+#include "lights/light_clusters.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "catch.h"
 #include "direction_chi_square.h"
-#include "surface_bsdf.h"
+#include "bsdf/surface_bsdf.h"
 
 using namespace diptych::shared;
 using namespace diptych::tests;

@@ -1,12 +1,12 @@
 // What a surface reflects that a normal map shades, term by term: equation 4 of docs/integrand.md in double precision.
-#include "mapped_bsdf.h"
+#include "bsdf/mapped_bsdf.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "catch.h"
 #include "direction_chi_square.h"
-#include "surface_bsdf.h"
+#include "bsdf/surface_bsdf.h"
 
 using namespace diptych::shared;
 using namespace diptych::tests;

@@ -1,12 +1,12 @@
 // Shading by a normal map's normal: n·l head-on, no black at grazing views, and never more light than came in.
-#include "normal_map.h"
+#include "bsdf/normal_map.h"
 
 #include <array>
 #include <cstdio>
 
 #include "catch.h"
 #include "direction_chi_square.h"
-#include "surface_bsdf.h"
+#include "bsdf/surface_bsdf.h"
 
 using namespace diptych::shared;
 using namespace diptych::tests;

@@ -1,5 +1,5 @@
 // Records and signatures of paths.
-#include "path_record.h"
+#include "path/path_record.h"
 
 #include <set>
 

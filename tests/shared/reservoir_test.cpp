@@ -1,11 +1,11 @@
 // Resampling of light points: what is kept, how often, and with which weight.
-#include "reservoir.h"
+#include "restir/reservoir.h"
 
 #include <array>
 #include <limits>
 
 #include "catch.h"
-#include "rng.h"
+#include "numbers/rng.h"
 #include "stats/chi_square.h"
 
 using namespace diptych::shared;

@@ -1,5 +1,5 @@
 // What neighbours read of a surface, value by value: the packing keeps what it says, and the target is Lambert plus GGX in double precision.
-#include "reuse_surface.h"
+#include "restir/reuse_surface.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "reuse_surface.h"
+#include "restir/reuse_surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Hashes: known values, uniformity bit by bit, and no correlation between neighbouring counters.
-#include "rng.h"
+#include "numbers/rng.h"
 
 #include "catch.h"
 #include "stats/chi_square.h"

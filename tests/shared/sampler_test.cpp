@@ -1,5 +1,5 @@
 // The three samplers: uniform, pure, and stratified as each promises.
-#include "sampler.h"
+#include "numbers/sampler.h"
 
 #include "catch.h"
 #include "stats/chi_square.h"

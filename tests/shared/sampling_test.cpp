@@ -1,11 +1,11 @@
 // Warps against their pdfs, frames and ray offsets.
-#include "sampling.h"
+#include "numbers/sampling.h"
 
 #include "catch.h"
 #include "close.h"
-#include "frame.h"
-#include "ray_offset.h"
-#include "rng.h"
+#include "bsdf/frame.h"
+#include "geometry/ray_offset.h"
+#include "numbers/rng.h"
 #include "stats/chi_square.h"
 
 #include <algorithm>

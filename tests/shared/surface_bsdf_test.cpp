@@ -1,4 +1,4 @@
-#include "surface_bsdf.h"
+#include "bsdf/surface_bsdf.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // Tone maps: known values, monotone, defined for any input.
-#include "tonemap.h"
+#include "film/tonemap.h"
 
 #include "catch.h"
 #include "close.h"
-#include "rng.h"
+#include "numbers/rng.h"
 
 #include <algorithm>
 #include <cmath>

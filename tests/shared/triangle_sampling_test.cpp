@@ -1,9 +1,9 @@
 // Triangles as lights: solid angle against fp64, and samples against the pdf that they claim.
-#include "triangle_sampling.h"
+#include "numbers/triangle_sampling.h"
 
 #include "catch.h"
-#include "rng.h"
-#include "sampling.h"
+#include "numbers/rng.h"
+#include "numbers/sampling.h"
 #include "stats/chi_square.h"
 
 #include <cmath>

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "../common/image_fixtures.h"
-#include "backend.h"
+#include "session/backend.h"
 #include "backend/cpu_renderer.h"
 #include "error.h"
-#include "program.h"
+#include "commands/program.h"
 
 using namespace diptych;
 using diptych::image_tests::TemporaryFolder;

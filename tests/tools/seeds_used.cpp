@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "../common/image_fixtures.h"
-#include "backend.h"
+#include "session/backend.h"
 #include "backend/cpu_renderer.h"
-#include "program.h"
+#include "commands/program.h"
 #include "render/settings_names.h"
 
 using namespace diptych;

@@ -5,7 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "catch.h"
-#include "scene/generate_shapes.h"
+#include "generate/shapes.h"
 #include "scene/viewpoint.h"
 
 using namespace diptych;

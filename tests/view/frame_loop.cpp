@@ -2,7 +2,7 @@
 #include "view/frame_loop.h"
 
 #include "backend/cpu_renderer.h"
-#include "scene/pose.h"
+#include "pose/pose.h"
 #include "view/camera_control.h"
 #include "view_fixture.h"
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scene/generate.h"
-#include "scene/gltf_files.h"
-#include "scene/gltf_write.h"
+#include "generate/generate.h"
+#include "gltf/files.h"
+#include "gltf/write.h"
 #include "view_fixture.h"
 
 using namespace diptych;

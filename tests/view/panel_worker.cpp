@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "backend/cpu_renderer.h"
-#include "scene/generate.h"
-#include "scene/pose.h"
+#include "generate/generate.h"
+#include "pose/pose.h"
 #include "view/panel_engine.h"
 #include "view_fixture.h"
 

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include "arguments.h"
+#include "commands/arguments/arguments.h"
 #include "catch.h"
-#include "render/render_metadata.h"
+#include "render/metadata.h"
 #include "render/setting_ranges.h"
 #include "view/view_state.h"
 

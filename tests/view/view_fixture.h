@@ -11,7 +11,7 @@
 
 #include "catch.h"
 #include "error.h"
-#include "scene/generate_shapes.h"
+#include "generate/shapes.h"
 #include "view/panel_worker.h"
 
 namespace diptych::tests {

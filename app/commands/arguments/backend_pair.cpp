@@ -1,0 +1,55 @@
+#include "commands/arguments/backend_pair.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "session/backend.h"
+#include "error.h"
+
+namespace diptych::app {
+
+void add_pair_options(CLI::App& command, PairArguments& pair) {
+    command.add_option("--backends", pair.backends, "Those to compare: cpu, vulkan")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_option("--device", pair.device, "Vulkan device by index or name; the best by default");
+    command.add_option("--threads", pair.threads, "CPU threads; one a core by default")->check(CLI::Range(1, 4096));
+    command.add_flag("--validation", pair.validation, "Run Vulkan's validation layers");
+}
+
+void check_pair(const PairArguments& pair) {
+    const auto& names = pair.backends;
+    const auto has = [&](const char* name) { return std::count(names.begin(), names.end(), name) > 0; };
+    for (const std::string& name : names) {
+        if (name != "cpu" && name != "vulkan") {
+            throw Error(fmt::format("--backends {}: there are only cpu, vulkan", name));
+        }
+        if (std::count(names.begin(), names.end(), name) > 1) {
+            throw Error(fmt::format("--backends: {} is named twice", name));
+        }
+    }
+    if (!has("vulkan") && (!pair.device.empty() || pair.validation)) {
+        throw Error(fmt::format("{}: goes with the backend vulkan", pair.validation ? "--validation" : "--device"));
+    }
+    if (!has("cpu") && pair.threads != 0) {
+        throw Error("--threads: goes with the backend cpu");
+    }
+}
+
+std::vector<std::unique_ptr<Renderer>> make_renderers(const Scene& scene, const PackedScene& packed,
+                                                      const PairArguments& pair) {
+    std::vector<std::unique_ptr<Renderer>> renderers;
+    for (const std::string& name : pair.backends) {
+        RenderRequest request;
+        request.backend = name;
+        request.device = pair.device;
+        request.threads = pair.threads;
+        request.validation = pair.validation;
+        renderers.push_back(make_renderer(scene, packed, request));
+    }
+    return renderers;
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,195 @@
+#include "commands/converge/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "commands/converge/runner.h"
+#include "error.h"
+#include "image/atomic_file.h"
+#include "image/image_file.h"
+#include "render/film_statistics.h"
+#include "render/metadata.h"
+#include "console/report.h"
+
+namespace diptych::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Sums over the blocks so far.
+struct Blocks {
+    std::uint32_t count = 0;
+    std::vector<double> sum;
+    std::vector<double> squares;
+
+    void add(const Film& film) {
+        sum.resize(3 * film.pixels.size());
+        squares.resize(sum.size());
+        for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+            const Rgb mean = pixel_mean(film.pixels[i]);
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                sum[3 * i + channel] += mean[channel];
+                squares[3 * i + channel] += mean[channel] * mean[channel];
+            }
+        }
+        ++count;
+    }
+};
+
+void save(const std::string& path, const Blocks& blocks) {
+    std::string bytes(sizeof(std::uint64_t), '\0');
+    const std::uint64_t count = blocks.count;
+    std::copy_n(reinterpret_cast<const char*>(&count), sizeof count, bytes.data());
+    for (const std::vector<double>* values : {&blocks.sum, &blocks.squares}) {
+        bytes.append(reinterpret_cast<const char*>(values->data()), values->size() * sizeof(double));
+    }
+    write_file_atomically(path, bytes);
+}
+
+Blocks load(const std::string& path, std::size_t values) {
+    Blocks blocks;
+    std::ifstream file(path, std::ios::binary);
+    std::uint64_t count = 0;
+    if (!file.read(reinterpret_cast<char*>(&count), sizeof count)) {
+        return blocks;
+    }
+    blocks.count = static_cast<std::uint32_t>(count);
+    for (std::vector<double>* into : {&blocks.sum, &blocks.squares}) {
+        into->resize(values);
+        if (!file.read(reinterpret_cast<char*>(into->data()), static_cast<std::streamsize>(values * sizeof(double)))) {
+            throw Error(fmt::format("{}: is not whole; give another -o", path));
+        }
+    }
+    return blocks;
+}
+
+LayeredImage picture_of(const Blocks& blocks, int width, int height) {
+    LayeredImage image;
+    image.color = make_image(width, height, 3);
+    image.standard_error = make_image(width, height, 3);
+    const double n = blocks.count;
+    for (std::size_t i = 0; i < blocks.sum.size(); ++i) {
+        const double mean = blocks.sum[i] / n;
+        const double variance = std::max(0.0, blocks.squares[i] - n * mean * mean) / (n - 1);
+        image.color.data[i] = static_cast<float>(mean);
+        image.standard_error->data[i] = static_cast<float>(std::sqrt(variance / n));
+    }
+    return image;
+}
+
+Reference reference_of(LayeredImage image, std::string method) {
+    Reference reference;
+    reference.method = std::move(method);
+    reference.variance.assign(image.color.data.size(), 0);
+    reference.variance_known = image.standard_error.has_value();
+    for (std::size_t i = 0; reference.variance_known && i < reference.variance.size(); ++i) {
+        const float error = image.standard_error->data[i];
+        reference.variance[i] = std::isfinite(error) ? error * error : 0;
+    }
+    for (const float value : image.color.data) {
+        reference.weights.push_back(1 / (value * value + 1e-2F));
+    }
+    const auto entry = [&](const char* name) {
+        const auto found = image.metadata.find(name);
+        return found == image.metadata.end() ? std::string() : found->second;
+    };
+    reference.command = entry("command");
+    reference.spp = static_cast<std::uint32_t>(std::strtoul(entry("spp").c_str(), nullptr, 10));
+    reference.image = std::move(image);
+    return reference;
+}
+
+}  // namespace
+
+ReferenceNoise noise_of(const Reference& reference) {
+    ReferenceNoise noise;
+    const std::vector<float>& color = reference.image.color.data;
+    const double values = static_cast<double>(color.size()), pixels = values / 3;
+    for (std::size_t i = 0; i < color.size(); i += 3) {
+        double pixel = 0, relative = 0;
+        for (std::size_t channel = i; channel < i + 3; ++channel) {
+            pixel += reference.variance[channel] / 3.0;
+            relative += reference.variance[channel] * reference.weights[channel] / 3.0;
+            noise.mean += color[channel] / values;
+        }
+        noise.mse += pixel / pixels;
+        noise.relmse += relative / pixels;
+        noise.mse_error += 2 * pixel * pixel;
+        noise.relmse_error += 2 * relative * relative;
+    }
+    noise.mse_error = std::sqrt(noise.mse_error) / pixels;
+    noise.relmse_error = std::sqrt(noise.relmse_error) / pixels;
+    return noise;
+}
+
+Reference load_reference(const std::string& path, int width, int height) {
+    LayeredImage image = read_image(path);
+    if (image.color.width != width || image.color.height != height) {
+        throw Error(fmt::format("--reference {}: has {}x{} pixels, and {}x{} are rendered; give --size", path,
+                                image.color.width, image.color.height, width, height));
+    }
+    if (image.data != image.display) {
+        throw Error(fmt::format("--reference {}: a crop: it has data for {}x{} of its {}x{} pixels", path,
+                                image.data.width, image.data.height, width, height));
+    }
+    for (const float value : image.color.data) {
+        if (!std::isfinite(value)) {
+            throw Error(fmt::format("--reference {}: holds values that are not finite", path));
+        }
+    }
+    return reference_of(std::move(image), path);
+}
+
+std::optional<Reference> make_reference(const Scene& scene, const Method& method, std::uint32_t spp,
+                                        ConvergeState& state, const std::atomic<bool>& cancel,
+                                        const std::function<void(std::uint32_t)>& begin_block) {
+    const RenderSettings& settings = method.request.settings;
+    const std::string path = state.path("reference.exr"), partial = state.path("reference.blocks");
+    if (!state.latest("reference").is_null() && fs::exists(path)) {
+        return reference_of(read_image(path), method.name);
+    }
+    Blocks blocks =
+        load(partial, 3 * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
+    MethodRunner runner(scene, method);
+    double seconds = 0;
+    while (blocks.count < reference_blocks) {
+        begin_block(blocks.count);
+        const bool whole = runner.run(method.seed_of(blocks.count), {spp}, cancel,
+                                      [&](std::uint32_t, const Film& film, double device_seconds, double) {
+                                          blocks.add(film);
+                                          seconds += device_seconds;
+                                      });
+        if (!whole) {
+            return std::nullopt;
+        }
+        save(partial, blocks);
+    }
+    LayeredImage image = picture_of(blocks, settings.width, settings.height);
+    RenderRequest request = method.request;
+    request.output = "reference.exr";
+    RenderOutcome outcome;
+    outcome.program = program_version();
+    outcome.device = runner.device();
+    outcome.spp = spp * reference_blocks;
+    outcome.seconds = seconds;
+    image.metadata = render_metadata(request, outcome);
+    image.metadata["blocks"] = std::to_string(reference_blocks);
+    // Each block has its own seed, so no single render has these bits: this one has their expectation and, about, their
+    // noise.
+    write_exr(path, image);
+    state.append(nlohmann::ordered_json{{"kind", "reference"},
+                                        {"method", method.name},
+                                        {"device", runner.device()},
+                                        {"spp", outcome.spp},
+                                        {"blocks", reference_blocks},
+                                        {"device_seconds", seconds}});
+    fs::remove(partial);
+    return reference_of(std::move(image), method.name);
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,171 @@
+// The summary of `converge` as JSON, as CSV and as text.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "build_info.h"
+#include "commands/converge/summary.h"
+#include "render/metadata.h"
+#include "render/settings_names.h"
+#include "console/report.h"
+
+namespace diptych::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Interval& interval) {
+    return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
+}
+
+Json to_json(const BiasSquared& bias) {
+    return {{"value", bias.value}, {"standard_error", bias.standard_error}, {"p", bias.p}, {"heavy", bias.heavy}};
+}
+
+Json to_json(const BiasFit& fit) {
+    return {{"bias_squared", to_json(fit.bias_squared)},
+            {"noise", fit.noise},
+            {"standard_error", fit.standard_error},
+            {"p", fit.p}};
+}
+
+Json to_json(const CheckpointSummary& point) {
+    Json json;
+    json["spp"] = point.spp;
+    json["device_seconds"] = point.device_seconds;
+    json["wall_seconds"] = point.wall_seconds;
+    json["mse"] = to_json(point.mse);
+    json["relmse"] = to_json(point.relmse);
+    json["relmse_trimmed"] = to_json(point.relmse_trimmed);
+    json["trimmed_energy"] = point.trimmed_energy;
+    json["mse_net"] = point.mse_net;
+    json["relmse_net"] = point.relmse_net;
+    json["efficiency"] = point.efficiency;
+    json["bias_squared"] = to_json(point.bias);
+    json["relative_bias_squared"] = to_json(point.relative_bias);
+    json["nonfinite"] = point.nonfinite;
+    return json;
+}
+
+const char* name_of(TargetTime::Kind kind) {
+    switch (kind) {
+    case TargetTime::Kind::reached:
+        return "reached";
+    case TargetTime::Kind::earlier:
+        return "earlier";
+    case TargetTime::Kind::later:
+        return "later";
+    default:
+        return "unknown";
+    }
+}
+
+Json to_json(const MethodSummary& summary) {
+    const RenderRequest& request = summary.method->request;
+    const bool oracle = request.backend == "oracle";
+    Json json;
+    json["method"] = summary.method->name;
+    json["backend"] = request.backend;
+    json["integrator"] = oracle ? "oracle/" + request.oracle_mode : diptych::name_of(request.settings.integrator);
+    json["sampler"] = oracle ? "independent" : diptych::name_of(request.settings.sampler);
+    json["runs"] = summary.runs;
+    json["first_seed"] = request.settings.seed;
+    json["setup"] = summary.setup;
+    json["slope_mse"] = to_json(summary.slope_mse);
+    json["slope_relmse"] = to_json(summary.slope_relmse);
+    json["fit"] = to_json(summary.fit);
+    json["fit_relmse"] = to_json(summary.fit_relmse);
+    json["fit_relmse"]["adjusted_p"] = summary.fit_p;
+    json["bias"] = {
+        {"adjusted_p", summary.bias_p}, {"significant", summary.bias_p < bias_alpha}, {"text", summary.bias_text}};
+    json["time_to_target"] = {{"kind", name_of(summary.to_target.kind)}, {"device_seconds", summary.to_target.seconds}};
+    json["picture"] = summary.picture;
+    json["command"] = repeat_command(request, summary.checkpoints.back().spp);
+    json["checkpoints"] = Json::array();
+    for (const CheckpointSummary& point : summary.checkpoints) {
+        json["checkpoints"].push_back(to_json(point));
+    }
+    return json;
+}
+
+std::string time_text(double seconds) {
+    return seconds >= 1 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.3g} ms", 1000 * seconds);
+}
+
+}  // namespace
+
+nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Summary& summary,
+                                       const Reference& reference, const ConvergeState& state) {
+    const RenderRequest& request = options.arguments.request;
+    Json json;
+    json["scene"] = request.scene;
+    json["width"] = request.settings.width;
+    json["height"] = request.settings.height;
+    json["max_depth"] = request.settings.max_depth;
+    json["runs"] = options.runs;
+    json["program"] = program_version();
+    json["commit"] = build_info::commit;
+    json["command"] = options.command;
+    json["load_seconds"] = state.latest("scene").value("load_seconds", 0.0);
+    json["reference"] = {{"method", reference.method},
+                         {"spp", reference.spp},
+                         {"variance_known", reference.variance_known},
+                         {"command", reference.command},
+                         {"mse", summary.noise.mse},
+                         {"mse_error", summary.noise.mse_error},
+                         {"relmse", summary.noise.relmse},
+                         {"relmse_error", summary.noise.relmse_error},
+                         {"mean", summary.noise.mean}};
+    json["target_relmse"] = summary.target_relmse;
+    json["equal_seconds"] = summary.equal_seconds;
+    json["methods"] = Json::array();
+    for (const MethodSummary& method : summary.methods) {
+        json["methods"].push_back(to_json(method));
+    }
+    return json;
+}
+
+std::string summary_to_csv(const Summary& summary) {
+    std::string text =
+        "method,runs,spp,device_seconds,wall_seconds,mse,mse_low,mse_high,relmse,relmse_low,relmse_high,relmse_trimmed,"
+        "trimmed_energy,mse_net,relmse_net,efficiency,bias_squared,bias_squared_error,relative_bias_squared,relative_"
+        "bias_squared_error,relative_bias_p,heavy,nonfinite\n";
+    for (const MethodSummary& method : summary.methods) {
+        for (const CheckpointSummary& p : method.checkpoints) {
+            text += fmt::format("{},{},{}", method.method->name, method.runs, p.spp);
+            for (const double value :
+                 {p.device_seconds, p.wall_seconds, p.mse.value, p.mse.low, p.mse.high, p.relmse.value, p.relmse.low,
+                  p.relmse.high, p.relmse_trimmed.value, p.trimmed_energy, p.mse_net, p.relmse_net, p.efficiency,
+                  p.bias.value, p.bias.standard_error, p.relative_bias.value, p.relative_bias.standard_error,
+                  p.relative_bias.p, p.relative_bias.heavy}) {
+                text += std::isfinite(value) ? fmt::format(",{:.9g}", value) : ",";
+            }
+            text += fmt::format(",{}\n", p.nonfinite);
+        }
+    }
+    return text;
+}
+
+void print_summary(const ConvergeOptions& options, const Summary& summary, const Reference& reference) {
+    const RenderSettings& settings = options.arguments.request.settings;
+    fmt::print("{} at {}x{}, {} runs a method; reference: {}{}\n", options.arguments.request.scene, settings.width,
+               settings.height, options.runs, reference.method,
+               reference.spp > 0 ? fmt::format(", {} spp", reference.spp) : "");
+    fmt::print("{:<26} {:>8} {:>9} {:>10} {:>7} {:>15} {:>13}  bias\n", "method", "spp", "time", "relMSE", "slope",
+               "95 %", fmt::format("to {:.2g}", summary.target_relmse));
+    for (const MethodSummary& method : summary.methods) {
+        const CheckpointSummary& last = method.checkpoints.back();
+        const char* mark = method.to_target.kind == TargetTime::Kind::earlier ? "<"
+                           : method.to_target.kind == TargetTime::Kind::later ? ">"
+                                                                              : "";
+        fmt::print("{:<26} {:>8} {:>9} {:>10.3g} {:>7.3f} {:>15} {:>13}  {}{}\n", method.method->name, last.spp,
+                   time_text(last.device_seconds), last.relmse_net, method.slope_mse.value,
+                   fmt::format("[{:.3f}, {:.3f}]", method.slope_mse.low, method.slope_mse.high),
+                   mark + time_text(method.to_target.seconds), method.bias_text,
+                   last.nonfinite > 0 ? fmt::format("; {} samples were not finite", last.nonfinite) : "");
+    }
+    fmt::print("Slope of the MSE over the samples (-1: independent samples). Page: {}/index.html\n", options.folder);
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,115 @@
+#include "commands/converge/runner.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "session/backend.h"
+#include "session/pack_requested.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr double warm_seconds = 0.2;
+constexpr std::uint32_t most_spp = 1U << 24U;
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+MethodRunner::Entry& MethodRunner::entry(std::uint32_t sample_count) {
+    Entry& entry = entries_[method_.laid_out() ? sample_count : 0];
+    if (!entry.renderer) {
+        RenderRequest request = method_.request;
+        request.settings.sample_count = std::max(sample_count, 1U);
+        const double begin = now();
+        entry.packed = std::make_unique<PackedScene>(pack_requested(scene_, request.settings));
+        entry.pack_seconds = now() - begin;
+        entry.renderer = make_renderer(scene_, *entry.packed, request);
+    }
+    return entry;
+}
+
+std::string MethodRunner::device() {
+    return entry(1).renderer->device();
+}
+
+SetupCosts MethodRunner::costs() {
+    const Entry& first = entry(1);
+    const RendererCosts costs = first.renderer->costs();
+    return {first.pack_seconds, costs.build_seconds, costs.compile_seconds, costs.bytes};
+}
+
+void MethodRunner::warm_up(Entry& entry, const std::atomic<bool>& cancel) {
+    if (entry.warm) {
+        return;
+    }
+    const double begin = now();
+    for (std::uint32_t i = 0; i < 1024 && !cancel && (i == 0 || now() - begin < warm_seconds); ++i) {
+        entry.renderer->render(i, 1, cancel);
+    }
+    entry.warm = true;
+}
+
+void MethodRunner::warm_up(const std::atomic<bool>& cancel) {
+    warm_up(entry(1), cancel);
+}
+
+bool MethodRunner::run(std::uint32_t seed, const std::vector<std::uint32_t>& counts, const std::atomic<bool>& cancel,
+                       const Checkpoint& checkpoint) {
+    double device_seconds = 0, wall_seconds = 0;
+    std::uint32_t done = 0;
+    bool fresh = true;
+    for (const std::uint32_t count : counts) {
+        Entry& at_work = entry(count);
+        warm_up(at_work, cancel);
+        if (fresh || method_.laid_out()) {
+            at_work.renderer->restart(seed);
+            fresh = false;
+            device_seconds = wall_seconds = 0;
+            done = 0;
+        }
+        const double device_before = at_work.renderer->device_seconds();
+        const double wall_before = now();
+        at_work.renderer->render(done, count - done, cancel);
+        wall_seconds += now() - wall_before;
+        device_seconds += at_work.renderer->device_seconds() - device_before;
+        if (cancel) {
+            return false;
+        }
+        done = count;
+        checkpoint(count, at_work.renderer->film(), device_seconds, wall_seconds);
+    }
+    return true;
+}
+
+std::uint32_t MethodRunner::samples_within(double seconds, const std::atomic<bool>& cancel) {
+    Entry& at_work = entry(1);
+    warm_up(at_work, cancel);
+    std::uint32_t fits = 1;
+    for (int pass = 0; pass < 2;
+         ++pass) {  // the first is slower than what follows, where dispatches still find their size
+        at_work.renderer->restart(method_.request.settings.seed);
+        const double before = at_work.renderer->device_seconds();
+        std::uint32_t done = 0;
+        for (std::uint32_t count = 1; count <= most_spp; count *= 2) {
+            at_work.renderer->render(done, count - done, cancel);
+            if (cancel) {
+                return 0;
+            }
+            done = count;
+            const double taken = at_work.renderer->device_seconds() - before;
+            if (taken <= seconds) {
+                fits = std::max(fits, count);
+            }
+            if (2 * taken > 1.1 * seconds) {  // the next would not fit; the tenth is for noise
+                break;
+            }
+        }
+    }
+    return fits;
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,84 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+#include <string>
+
+#include "session/backend.h"
+#include "commands/command.h"
+#include "error.h"
+#include "commands/program.h"
+#include "console/report.h"
+#include "commands/suggestion.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr const char* program_examples = R"(Examples:
+  diptych generate cornell -o cornell.gltf
+  diptych render cornell.gltf -o cpu.exr --backend cpu --seed 1
+  diptych render cornell.gltf -o vulkan.exr --backend vulkan --seed 2
+  diptych compare cpu.exr vulkan.exr -o difference.png
+  diptych COMMAND --help
+Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 no suitable device, 130 interrupted)";
+
+int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+    std::string message = one_line(error.what());
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && app.get_subcommands().empty()) {
+        message = argc < 2 ? "wants a command" : fmt::format("there is no command '{}'", argv[1]);
+    }
+    report_error(fmt::format("{} ({})", message, suggestion(app, argc, argv)));
+    return exit_bad_input;
+}
+
+int run_command(int argc, char** argv) {
+    CLI::App app(
+        "One glTF scene rendered twice, by Embree on the CPU and by Vulkan ray tracing, from one set of shaders.",
+        "diptych");
+    app.footer(program_examples);
+    app.set_version_flag("--version", program_version());
+    app.require_subcommand(1);
+    Run run;
+    add_render(app, run);
+    add_compare(app, run);
+    add_info(app, run);
+    add_generate(app, run);
+    add_bench(app, run);
+    add_verify(app, run);
+    add_replay(app, run);
+    add_converge(app, run);
+    add_stability(app, run);
+    add_view(app, run);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        return usage_error(app, error, argc, argv);
+    }
+    return exit_code_after_validation(run());
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+    try {
+        return run_command(argc, argv);
+    } catch (const NoDevice& error) {
+        report_error(error.what());
+        return exit_no_device;
+    } catch (const Error& error) {
+        report_error(error.what());
+        return exit_bad_input;
+    } catch (const std::bad_alloc&) {
+        report_error("not enough memory");
+        return exit_bad_input;
+    } catch (const std::exception& error) {
+        report_error(fmt::format("internal error: {}", error.what()));
+        return exit_bad_input;
+    }
+}
+
+}  // namespace diptych::app

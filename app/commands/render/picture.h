@@ -1,0 +1,46 @@
+// One picture of a render: sampled, saved, reported.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "render/metadata.h"
+#include "render/request.h"
+#include "render/renderer.h"
+
+namespace diptych::app {
+
+struct Picture {
+    nlohmann::ordered_json json;
+    bool saved = false;  // not where an interrupt came before the first sample
+    bool interrupted = false;
+};
+
+/// Develops the film and writes request.output with the metadata of both, by its extension; returns what it wrote.
+/// Throws Error.
+LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome);
+
+/// A picture's place in a chain of them, each of which goes on from the one before.
+struct PictureChain {
+    std::uint32_t first_sample = 0;
+    std::function<void()> after_first;  // of its samples, where another follows
+};
+
+class LiveView;
+
+/// Who is told while it renders.
+struct PictureAudience {
+    std::string label;         // before the progress line
+    bool quiet = false;        // no line on stdout at the end
+    LiveView* live = nullptr;  // sees the picture now and then, and at the end
+};
+
+/// Renders until the request's samples or seconds are reached or `cancel` is set, writes request.output and says so.
+/// Throws Error.
+Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
+                       const std::atomic<bool>& cancel, const PictureAudience& audience,
+                       const PictureChain& chain = {});
+
+}  // namespace diptych::app

@@ -1,0 +1,197 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "commands/arguments/arguments.h"
+#include "session/backend.h"
+#include "commands/command.h"
+#include "error.h"
+#include "image/image_file.h"
+#include "image/tonemap_image.h"
+#include "console/interrupt.h"
+#include "commands/render/live_view.h"
+#include "session/pack_requested.h"
+#include "render/settings_names.h"
+#include "commands/render/picture.h"
+#include "commands/render/sequence.h"
+#include "console/report.h"
+#include "pose/pose.h"
+#include "session/scene_setup.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr const char* render_examples = R"(Examples:
+  diptych render scene.gltf -o picture.exr
+  diptych render scene.glb -o picture.png --backend vulkan --time 10 --size 1920x1080 --tonemap aces
+  diptych render scene.gltf -o clean.exr --target-error 1e-3 --time 600
+  diptych render scene.gltf -o truth.exr --backend oracle --spp 4096
+  diptych render scene.gltf -o picture.exr --time 60 --live localhost:14158
+  diptych render scene.gltf -o picture.exr --env studio.hdr --env-rotate 90 --camera Front --spp 1024
+  diptych render scene.glb -o walk.####.exr --frames 96 --fps 24 --camera moving
+  diptych render scene.glb -o around.png --frames 36 --orbit 10 --tonemap aces
+  diptych render scene.glb -o film.####.exr --frames 96 --integrator restir --spp 1 --warm-up 24
+A sequence plays the scene's animations from --start on, one file a frame: #### in the name is its number, else it goes
+before the extension. Frame i has the seed --seed + i; with restir all have --seed, and each goes on from the one before. Each
+file's metadata repeats it alone.
+EXR holds linear colour, standard error, albedo, normal and depth, with metadata that repeats the render: the command is
+in the attribute diptych:command. PNG is tone mapped; HDR is linear. Ctrl-C saves the work so far and exits with 130.)";
+
+struct RenderOptions {
+    RenderArguments arguments;
+    CLI::Option* spp_option = nullptr;
+    CLI::Option* layers_option = nullptr;
+    CLI::Option* sequence_option = nullptr;
+    CLI::Option* fps_option = nullptr;
+    CLI::Option* start_option = nullptr;
+    CLI::Option* orbit_option = nullptr;
+    CLI::Option* warm_up_option = nullptr;
+    bool layers = true;
+    std::uint32_t sample_count = 0;
+    std::string live;  // HOST:PORT
+    bool json = false;
+};
+
+void check_render_options(RenderOptions& options) {
+    RenderRequest& request = options.arguments.request;
+    RenderSettings& settings = request.settings;
+    resolve_names(options.arguments);
+    resolve_oracle_mode(options.arguments);
+    refuse_idle_resampling_options(options.arguments, resamples(settings.integrator));
+    tonemap_from_name(request.tonemap);
+    if (options.warm_up_option->count() > 0 && !(request.backend != "oracle" && chains_frames(settings))) {
+        throw Error("--warm-up: goes with --integrator restir and --temporal, whose frames go on from one another");
+    }
+    if (request.seconds > 0 || (request.target_error > 0 && options.spp_option->count() == 0)) {
+        request.spp = 0;
+    }
+    if (request.target_error > 0 && request.backend != "oracle" && resamples(settings.integrator)) {
+        throw Error(fmt::format(
+            "--target-error: the frames of {} are resampled together, so their spread does not tell the error",
+            name_of(settings.integrator)));
+    }
+    settings.sample_count = options.sample_count > 0 ? options.sample_count : request.spp;
+    if (settings.sampler == SamplerKind::hammersley && settings.sample_count == 0) {
+        throw Error("--sampler hammersley: is laid out for a known number of samples: give --spp or --sample-count");
+    }
+    if (options.sequence_option->count() + options.start_option->count() + options.orbit_option->count() > 0) {
+        request.frames = std::max(request.frames, 1U);
+    } else if (options.fps_option->count() > 0) {
+        throw Error("--fps: goes with --frames");
+    }
+    if (request.seconds > 0 && chains_frames(settings) && request.frames + request.warm_up > 1) {
+        throw Error(
+            "--time: a chain of restir's frames repeats only if each has a known number of samples: give --spp");
+    }
+    if (chains_frames(settings) &&
+        static_cast<double>(request.warm_up) + request.frames > 4294967295.0 / std::max(request.spp, 1U)) {
+        throw Error("--frames: a chain of restir's frames has at most 4294967295 samples");
+    }
+    check_writable(frame_path(request.output, 0, request.frames));
+    const bool exr = image_format(request.output) == ImageFormat::Exr;
+    if (!exr && options.layers && options.layers_option->count() > 0) {
+        throw Error(fmt::format("--layers: {} cannot hold them, only .exr can", request.output));
+    }
+    if (request.target_error > 0 && exr && !options.layers) {
+        throw Error("--no-layers: --target-error keeps the standard errors, which are one of them");
+    }
+    // Where frames go on from one another their spread says too little of the mean's error: better no layer than a
+    // wrong one.
+    settings.standard_error = ((exr && options.layers) || request.target_error > 0) && !chains_frames(settings);
+    settings.first_hit_layers = exr && options.layers;
+}
+
+int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) {
+    const RenderRequest& request = options.arguments.request;
+    if (moves(scene)) {
+        report_warning(fmt::format("{}: its animations are not played, it is shown at rest: give --frames or --start",
+                                   scene.name));
+    }
+    const PackedScene packed = pack_requested(scene, request.settings);
+    const std::unique_ptr<Renderer> renderer = make_renderer(scene, packed, request);
+    InterruptGuard interrupt;
+    if (request.warm_up > 0) {
+        renderer->render(0, request.warm_up, interrupt.requested());
+        renderer->clear_film();
+    }
+    const Picture picture = render_picture(*renderer, request, packed.features, interrupt.requested(),
+                                           {.label = "", .quiet = options.json, .live = live},
+                                           {.first_sample = request.warm_up, .after_first = {}});
+    if (options.json && picture.saved) {
+        print_json(picture.json);
+    }
+    return picture.interrupted ? exit_interrupted : exit_done;
+}
+
+int run_render(RenderOptions options) {
+    check_render_options(options);
+    const std::unique_ptr<LiveView> live = options.live.empty() ? nullptr : std::make_unique<LiveView>(options.live);
+    const Scene scene = prepare_scene(options.arguments);
+    if (options.arguments.request.frames > 0) {
+        report_clips(scene, options.arguments.request);
+        return render_sequence(scene, options.arguments.request, options.json, live.get());
+    }
+    return run_still(options, scene, live.get());
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("render", "Render a glTF scene to an image");
+    auto options = std::make_shared<RenderOptions>();
+    RenderRequest& request = options->arguments.request;
+    command->add_option("scene", request.scene, ".gltf or .glb file")->required();
+    command->add_option("-o,--output", request.output, "Image to write: .exr, .png or .hdr")->required();
+    CLI::Option* spp = command->add_option("--spp", request.spp, "Samples a pixel")
+                           ->check(CLI::Range(1U, 4294967295U))
+                           ->capture_default_str();
+    options->spp_option = spp;
+    command
+        ->add_option("--target-error", request.target_error,
+                     "Stop where the relMSE, estimated from the spread of 16 samples or more, is below; --spp or "
+                     "--time are limits then")
+        ->check(positive_number());
+    command->add_option("--time", request.seconds, "Render for so many seconds instead, to the nearest whole sample")
+        ->check(CLI::Range(0.001, 1e9))
+        ->check(finite_number())
+        ->excludes(spp);
+    options->arguments.panel_options.push_back(
+        command
+            ->add_option("--sample-count", options->sample_count,
+                         "Samples that hammersley is laid out for; --spp by default")
+            ->check(CLI::Range(1U, 4294967295U)));
+    command->add_option("--seed", request.settings.seed, "Another seed, other noise")->capture_default_str();
+    options->sequence_option = command
+                                   ->add_option("--frames", request.frames,
+                                                "Render a sequence of so many frames; --spp or --time is each one's")
+                                   ->check(CLI::Range(1U, 1000000U));
+    options->fps_option =
+        command->add_option("--fps", request.fps, "Frames a second")->check(positive_number())->capture_default_str();
+    options->start_option =
+        command->add_option("--start", request.start, "Seconds of the scene's animations at the first frame")
+            ->check(non_negative_number());
+    options->orbit_option =
+        command->add_option("--orbit", request.orbit, "Degrees a frame that the camera turns about what it looks at")
+            ->check(finite_number());
+    options->warm_up_option = command->add_option(
+        "--warm-up", request.warm_up,
+        "restir: frames that are rendered before the first, and not kept; without --frames, samples");
+    add_integrator_option(*command, options->arguments);
+    add_scene_options(*command, options->arguments);
+    add_backend_options(*command, options->arguments);
+    add_oracle_option(*command, options->arguments);
+    add_display_options(*command, request.exposure, request.tonemap, "for .png");
+    options->layers_option = command->add_flag("--layers,!--no-layers", options->layers,
+                                               "Write the layers beside colour; .exr only, on by default");
+    command->add_option(
+        "--live", options->live,
+        "HOST:PORT of a running tev, to watch the picture grow in it; tev listens on 127.0.0.1:14158 by default");
+    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->footer(render_examples);
+    command->callback([options, &run] { run = [options] { return run_render(*options); }; });
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,120 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "commands/arguments/backend_pair.h"
+#include "commands/command.h"
+#include "error.h"
+#include "session/pack_requested.h"
+#include "render/settings_names.h"
+#include "commands/replay/text.h"
+#include "console/report.h"
+#include "session/scene_setup.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr const char* replay_examples = R"(Examples:
+  diptych replay cornell.gltf --pixel 210,300 --sample 5
+  diptych replay street.glb --pixel 12,40 --sample 0 --size 64x48 --seed 7 --integrator direct
+  diptych replay cornell.gltf --pixel 210,300 --backends cpu --json
+Both backends trace the same path from the same random numbers. Numbers differ relative to the larger of the two,
+positions relative to the ray's length, directions and barycentrics absolutely; '=' is a difference of at most 1e-6.
+Scene, size, seed and settings have to be those of the picture in question. --max-depth too: roulette does not depend
+on it, but the last vertex does.)";
+
+struct ReplayOptions {
+    RenderArguments arguments;
+    PairArguments pair;
+    std::vector<std::uint32_t> pixel;
+    std::uint32_t sample = 0;
+    std::uint32_t sample_count = 64;
+    double tolerance = 1e-3;
+    bool json = false;
+};
+
+void print_result(const ReplayOptions& options, const Replay& replay, const shared::RenderConstants& constants) {
+    const RenderSettings& settings = options.arguments.request.settings;
+    if (options.json) {
+        nlohmann::ordered_json json;
+        json["scene"] = options.arguments.request.scene;
+        json["integrator"] = name_of(settings.integrator);
+        json["width"] = settings.width;
+        json["height"] = settings.height;
+        json["pixel"] = options.pixel;
+        json["sample"] = options.sample;
+        json["seed"] = settings.seed;
+        json.update(replay_json(replay, constants));
+        print_json(json);
+        return;
+    }
+    fmt::print("{}: pixel {},{} of {}x{}, sample {}, seed {}, {}, depth {}\n", options.arguments.request.scene,
+               options.pixel[0], options.pixel[1], settings.width, settings.height, options.sample, settings.seed,
+               name_of(settings.integrator), settings.max_depth);
+    fmt::print("{}", replay_text(replay, constants));
+    if (replay.paths.size() > 1) {
+        fmt::print("{}\n", parting_text(replay));
+    }
+}
+
+int run_replay(ReplayOptions options) {
+    RenderRequest& request = options.arguments.request;
+    resolve_names(options.arguments);
+    refuse_resampling("--integrator", options.arguments.request.settings.integrator, "replay");
+    check_pair(options.pair);
+    request.settings.sample_count = options.sample_count;
+    const Scene scene = prepare_scene(options.arguments);
+    const RenderSettings& settings = request.settings;
+    if (options.pixel[0] >= static_cast<std::uint32_t>(settings.width) ||
+        options.pixel[1] >= static_cast<std::uint32_t>(settings.height)) {
+        throw Error(fmt::format("--pixel {},{}: lies outside the picture of {}x{}", options.pixel[0], options.pixel[1],
+                                settings.width, settings.height));
+    }
+    const PackedScene packed = pack_requested(scene, settings);
+    const shared::PathQuery query{{options.pixel[0], options.pixel[1]}, options.sample};
+    Replay replay;
+    replay.tolerance = options.tolerance;
+    replay.origin = glm::dvec3(scene.cameras[static_cast<std::size_t>(settings.camera)].camera_to_world[3]);
+    for (const std::unique_ptr<Renderer>& renderer : make_renderers(scene, packed, options.pair)) {
+        replay.backends.push_back(renderer->backend());
+        replay.devices.push_back(renderer->device());
+        replay.paths.push_back(renderer->record_paths({&query, 1}).front());
+    }
+    if (replay.paths.size() > 1) {
+        replay.parting = find_parting(replay.paths[0], replay.paths[1], options.tolerance);
+    }
+    print_result(options, replay, packed.constants);
+    return exit_done;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("replay", "Trace one path again on both backends, vertex by vertex");
+    auto options = std::make_shared<ReplayOptions>();
+    command->add_option("scene", options->arguments.request.scene, ".gltf or .glb file")->required();
+    command->add_option("--pixel", options->pixel, "Column and row, from the top left")
+        ->type_name("X,Y")
+        ->delimiter(',')
+        ->expected(2)
+        ->required();
+    command->add_option("--sample", options->sample, "Which sample of that pixel")->capture_default_str();
+    command->add_option("--seed", options->arguments.request.settings.seed, "The picture's")->capture_default_str();
+    command
+        ->add_option("--sample-count", options->sample_count, "Samples that the picture's hammersley was laid out for")
+        ->check(CLI::Range(1U, 4294967295U))
+        ->capture_default_str();
+    command->add_option("--tolerance", options->tolerance, "Differences up to here are rounding")
+        ->check(non_negative_number())
+        ->capture_default_str();
+    add_integrator_option(*command, options->arguments);
+    add_scene_options(*command, options->arguments);
+    add_pair_options(*command, options->pair);
+    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->footer(replay_examples);
+    command->callback([options, &run] { run = [options] { return run_replay(*options); }; });
+}
+
+}  // namespace diptych::app

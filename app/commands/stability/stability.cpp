@@ -1,0 +1,121 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "commands/arguments/arguments.h"
+#include "commands/arguments/backend_pair.h"
+#include "commands/command.h"
+#include "error.h"
+#include "console/report.h"
+#include "commands/stability/report.h"
+#include "console/step_line.h"
+#include "commands/verify/report.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr const char* stability_examples = R"(Examples:
+  diptych stability
+  diptych stability --quick --backends cpu
+  diptych stability --rows "GGX D,solid angle" -o stability
+Measures shared functions and small pictures at their extremes, on each backend, against double precision and closed forms. Exit code 1
+where an error passes its bound or a result is not a number.)";
+
+struct StabilityOptions {
+    PairArguments pair;
+    std::vector<std::string> rows;
+    std::string output;
+    bool quick = false;
+    bool list = false;
+    bool json = false;
+};
+
+std::vector<std::unique_ptr<stability::Backend>> make_backends(const PairArguments& pair) {
+    std::vector<std::unique_ptr<stability::Backend>> backends;
+    for (const std::string& name : pair.backends) {
+        backends.push_back(name == "cpu" ? stability::make_cpu_backend(pair.threads)
+                                         : stability::make_vulkan_backend(pair.device, pair.validation));
+    }
+    return backends;
+}
+
+std::vector<const stability::Case*> chosen_cases(const std::vector<std::string>& rows) {
+    std::vector<const stability::Case*> chosen;
+    std::string names;
+    for (const stability::Case& c : stability::all_cases()) {
+        if (rows.empty() || std::count(rows.begin(), rows.end(), c.row) > 0) {
+            chosen.push_back(&c);
+        }
+        if (names.find(c.row) == std::string::npos) {
+            names += (names.empty() ? "" : ", ") + std::string(c.row);
+        }
+    }
+    for (const std::string& row : rows) {
+        const auto is_row = [&](const stability::Case* c) { return row == c->row; };
+        if (std::none_of(chosen.begin(), chosen.end(), is_row)) {
+            throw Error(fmt::format("--rows {}: there is no such row; there are {}", row, names));
+        }
+    }
+    return chosen;
+}
+
+int run_stability(const StabilityOptions& options) {
+    check_pair(options.pair);
+    const std::vector<const stability::Case*> cases = chosen_cases(options.rows);
+    if (options.list) {
+        print_case_list(cases, options.json);
+        return exit_done;
+    }
+    if (!options.output.empty()) {
+        prepare_folder(options.output);
+    }
+    StabilityReport report;
+    report.effort = options.quick ? stability::Effort::quick : stability::Effort::full;
+    {
+        const auto backends = make_backends(options.pair);
+        for (const auto& backend : backends) {
+            report.backends.push_back({backend->name(), backend->device()});
+        }
+        StepLine line(static_cast<int>(cases.size() * backends.size()));
+        for (const stability::Case* c : cases) {
+            MeasuredCase measured{c, {}};
+            for (const auto& backend : backends) {
+                line.begin(fmt::format("{}: {}: {}", backend->name(), c->row, c->name));
+                measured.results.push_back(stability::run_case(*c, *backend, report.effort));
+            }
+            report.cases.push_back(std::move(measured));
+        }
+    }
+    const std::vector<std::string> files =
+        options.output.empty() ? std::vector<std::string>() : write_report(report, options.output);
+    if (options.json) {
+        nlohmann::ordered_json json = to_json(report);
+        json["files"] = files;
+        print_json(json);
+    } else {
+        print_report(report);
+    }
+    return passes(report) ? exit_done : exit_check_failed;
+}
+
+}  // namespace
+
+void add_stability(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("stability", "Measure numerical errors at the extremes on this machine");
+    auto options = std::make_shared<StabilityOptions>();
+    command->add_option("--rows", options->rows, "Only these rows of the table, comma-separated; see --list")
+        ->delimiter(',');
+    command->add_flag("--quick", options->quick, "Few points and samples of each range: half a minute, not minutes");
+    add_pair_options(*command, options->pair);
+    command->add_option("-o,--output", options->output,
+                        "Folder for the table as CSV and JSON, and a plot (SVG) of each case that has a range");
+    command->add_flag("--list", options->list, "Say which rows and cases there are");
+    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->footer(stability_examples);
+    command->callback([options, &run] { run = [options] { return run_stability(*options); }; });
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,215 @@
+#include "commands/verify/paired.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "commands/command.h"
+#include "error.h"
+#include "image/figures.h"
+#include "image/image_file.h"
+#include "session/pack_requested.h"
+#include "render/paired_test.h"
+#include "render/metadata.h"
+#include "render/settings_names.h"
+#include "console/report.h"
+#include "session/scene_setup.h"
+
+namespace diptych::app {
+
+namespace {
+
+constexpr std::size_t paths_at_a_time = std::size_t{1} << 18U;
+
+struct PairedRun {
+    Integrator integrator = Integrator::path;
+    PairedReport report;
+    std::vector<std::string> devices;
+    double seconds = 0;
+    std::string figure;
+};
+
+/// Walks all samples of all pixels, `spp` of one pixel after another.
+std::vector<shared::PathQuery> list_paths(std::uint64_t first, std::size_t count, std::uint32_t width,
+                                          std::uint32_t spp) {
+    std::vector<shared::PathQuery> queries(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint64_t index = first + i;
+        const auto pixel = static_cast<std::uint32_t>(index / spp);
+        queries[i] = {{pixel % width, pixel / width}, static_cast<std::uint32_t>(index % spp)};
+    }
+    return queries;
+}
+
+PairedRun run_one(const Scene& scene, RenderSettings settings, const PairArguments& pair, const PairedOptions& options,
+                  Image& differing) {
+    const auto start = std::chrono::steady_clock::now();
+    const PackedScene packed = pack_requested(scene, settings);
+    const std::vector<std::unique_ptr<Renderer>> renderers = make_renderers(scene, packed, pair);
+    PairedRun run;
+    run.integrator = settings.integrator;
+    for (const auto& renderer : renderers) {
+        run.devices.push_back(renderer->device());
+    }
+    PairedTest test;
+    const auto width = static_cast<std::uint32_t>(settings.width);
+    const std::uint64_t all =
+        static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height) * options.spp;
+    for (std::uint64_t first = 0; first < all; first += paths_at_a_time) {
+        const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(paths_at_a_time, all - first));
+        const std::vector<shared::PathQuery> queries = list_paths(first, count, width, options.spp);
+        const std::vector<bool> differs =
+            test.add(queries, renderers[0]->summarize_paths(queries), renderers[1]->summarize_paths(queries));
+        for (std::size_t i = 0; i < count; ++i) {
+            if (differs[i]) {
+                differing.at(static_cast<int>(queries[i].pixel.x), static_cast<int>(queries[i].pixel.y), 0) +=
+                    1.0F / static_cast<float>(options.spp);
+            }
+        }
+    }
+    run.report = test.report();
+    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return run;
+}
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+double largest_z(const PairedReport& report) {
+    return *std::max_element(report.divergent_z.begin(), report.divergent_z.end(),
+                             [](double a, double b) { return std::abs(a) < std::abs(b); });
+}
+
+void print_report(RenderRequest request, const PairedRun& run) {
+    request.settings.integrator = run.integrator;
+    const PairedReport& report = run.report;
+    fmt::print("{}: {} paths, {:.4f} % decided alike, of these worst difference {:.2e}", name_of(run.integrator),
+               report.paths, percent(report.alike, report.paths), report.worst_relative);
+    fmt::print("{}\n", report.drifted > 0 ? fmt::format(", {} beyond 1e-3", report.drifted) : "");
+    fmt::print("  {:>8} {:>12} {:>10} {:>12}\n", "vertex", "paths", "parted", "fraction");
+    for (std::size_t i = 0; i < report.bounces.size(); ++i) {
+        const PairedBounce& bounce = report.bounces[i];
+        fmt::print("  {:>8} {:>12} {:>10} {:>12.2e}\n", i, bounce.reached, bounce.parted,
+                   percent(bounce.parted, bounce.reached) / 100);
+    }
+    const auto& sum = report.divergent_sum;
+    const auto& error = report.divergent_error;
+    fmt::print("  signed sum of what differs {:.3g} {:.3g} {:.3g} +- {:.3g} {:.3g} {:.3g}, z {:.2f}\n", sum[0], sum[1],
+               sum[2], error[0], error[1], error[2], largest_z(report));
+    for (const PairedExample& example : report.drifted_examples) {
+        fmt::print("  drifted by {:.2e}: {}\n", example.difference, replay_command(request, example.query));
+    }
+    for (const PairedExample& example : report.parted_examples) {
+        fmt::print("  parts at vertex {}: {}\n", example.vertex, replay_command(request, example.query));
+    }
+    fmt::print("  {}{} in {:.1f} s\n", name_of(report.verdict), report.reason.empty() ? "" : ": " + report.reason,
+               run.seconds);
+    if (!run.figure.empty()) {
+        fmt::print("  {}: share of each pixel's paths that part, from 0 (black) to 10 % (yellow)\n", run.figure);
+    }
+}
+
+nlohmann::ordered_json examples_json(const std::vector<PairedExample>& examples) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const PairedExample& example : examples) {
+        json.push_back({{"pixel", {example.query.pixel.x, example.query.pixel.y}},
+                        {"sample", example.query.sample_index},
+                        {"vertex", example.vertex},
+                        {"difference", example.difference}});
+    }
+    return json;
+}
+
+nlohmann::ordered_json run_json(const PairedRun& run) {
+    const PairedReport& report = run.report;
+    nlohmann::ordered_json json;
+    json["integrator"] = name_of(run.integrator);
+    json["devices"] = run.devices;
+    json["paths"] = report.paths;
+    json["alike_percent"] = percent(report.alike, report.paths);
+    json["worst_relative"] = report.worst_relative;
+    json["drifted"] = report.drifted;
+    json["drifted_p"] = report.drifted_p;
+    json["nonfinite"] = report.nonfinite;
+    json["vertices"] = nlohmann::ordered_json::array();
+    for (const PairedBounce& bounce : report.bounces) {
+        json["vertices"].push_back({{"paths", bounce.reached}, {"parted", bounce.parted}, {"p", bounce.p}});
+    }
+    json["divergent_sum"] = report.divergent_sum;
+    json["divergent_error"] = report.divergent_error;
+    json["divergent_z"] = report.divergent_z;
+    json["drifted_examples"] = examples_json(report.drifted_examples);
+    json["parted_examples"] = examples_json(report.parted_examples);
+    json["seconds"] = run.seconds;
+    json["verdict"] = name_of(report.verdict);
+    json["reason"] = report.reason;
+    if (!run.figure.empty()) {
+        json["output"] = run.figure;
+    }
+    return json;
+}
+
+PairedVerdict worst_verdict(const std::vector<PairedRun>& runs) {
+    PairedVerdict worst = PairedVerdict::pass;
+    for (const PairedRun& run : runs) {
+        const PairedVerdict verdict = run.report.verdict;
+        if (verdict == PairedVerdict::fail || worst == PairedVerdict::pass) {
+            worst = verdict;
+        }
+    }
+    return worst;
+}
+
+}  // namespace
+
+int run_paired(RenderArguments arguments, const PairArguments& pair, const PairedOptions& options) {
+    check_pair(pair);
+    if (pair.backends.size() != 2) {
+        throw Error("--paired: compares two backends, as --backends cpu,vulkan");
+    }
+    for (const Integrator integrator : options.integrators) {
+        refuse_resampling("--integrators", integrator, "verify --paired");
+    }
+    if (!options.folder.empty() && !std::filesystem::is_directory(options.folder)) {
+        throw Error(fmt::format("{}: is not a folder", options.folder));
+    }
+    arguments.request.settings.sample_count = options.spp;
+    const Scene scene = prepare_scene(arguments);
+    std::vector<PairedRun> runs;
+    for (const Integrator integrator : options.integrators) {
+        RenderSettings settings = arguments.request.settings;
+        settings.integrator = integrator;
+        Image differing = make_image(settings.width, settings.height, 1);
+        runs.push_back(run_one(scene, settings, pair, options, differing));
+        if (!options.folder.empty()) {
+            runs.back().figure =
+                (std::filesystem::path(options.folder) / fmt::format("paired-{}.png", name_of(integrator))).string();
+            write_png(runs.back().figure, heatmap(differing, 0, 0.1F));
+        }
+        if (!options.json) {
+            print_report(arguments.request, runs.back());
+        }
+    }
+    const PairedVerdict verdict = worst_verdict(runs);
+    if (options.json) {
+        nlohmann::ordered_json json;
+        json["scene"] = arguments.request.scene;
+        json["backends"] = pair.backends;
+        json["verdict"] = name_of(verdict);
+        json["pairs"] = nlohmann::ordered_json::array();
+        for (const PairedRun& run : runs) {
+            json["pairs"].push_back(run_json(run));
+        }
+        print_json(json);
+    } else {
+        fmt::print("{}\n", name_of(verdict));
+    }
+    const bool fails = verdict == PairedVerdict::fail || (options.require_pass && verdict != PairedVerdict::pass);
+    return fails ? exit_check_failed : exit_done;
+}
+
+}  // namespace diptych::app

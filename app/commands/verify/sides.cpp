@@ -1,0 +1,97 @@
+#include "commands/verify/sides.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace diptych::app {
+
+VerifySide::VerifySide(const SideName& name, const Scene& scene, const VerifyOptions& options,
+                       const std::vector<std::uint32_t>& frames, const SeedPlan& seeds, std::uint32_t side,
+                       std::uint32_t sample_count)
+    : name_(name), tile_(options.tile), seeds_(seeds), side_(side), run_count_(options.runs),
+      frame_spp_(options.frame_spp), frames_(frames),
+      runs_(std::max<std::size_t>(frames.size(), 1), std::vector<RunMeans>(options.runs)) {
+    RenderRequest request = options.arguments.request;
+    request.backend = name.backend;
+    request.settings.integrator = name.integrator;
+    request.oracle_mode = name.oracle_mode;
+    request.settings.seed = seeds_.seed(side_, 0);
+    request.settings.sample_count = sample_count;
+    request.spp = options.frame_spp;
+    request.frames = frames.empty() ? 0 : frames.back() + 1;
+    if (name.backend == "vulkan") {
+        request.threads = 0;
+    } else {
+        request.device.clear();
+        request.validation = false;
+    }
+    played_ = std::make_unique<PlayedScene>(scene, request);
+}
+
+std::size_t VerifySide::place_of(std::optional<std::uint32_t> frame) const {
+    return frame ? static_cast<std::size_t>(std::find(frames_.begin(), frames_.end(), *frame) - frames_.begin()) : 0;
+}
+
+const std::vector<RunMeans>& VerifySide::runs(std::optional<std::uint32_t> frame) const {
+    return runs_[place_of(frame)];
+}
+
+std::uint64_t VerifySide::most_spp() const {
+    return played_->chained() ? seeds_.parts() * frame_spp_ : std::numeric_limits<std::uint64_t>::max();
+}
+
+std::uint32_t VerifySide::first_seed(std::optional<std::uint32_t> frame) const {
+    return seeds_.seed(side_, 0, played_->chained() ? 0 : place_of(frame));
+}
+
+bool VerifySide::extend(std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook) {
+    if (played_->chained()) {
+        seeds_.seed(side_, 0, (spp_ + samples - 1) / frame_spp_);
+        for (std::uint32_t run = 0; run < run_count_ && !cancel; ++run) {
+            hook(name_, run);
+            for (std::uint32_t done = spp_; done < spp_ + samples && !cancel; done += frame_spp_) {
+                play_chain(run, done, cancel);
+            }
+        }
+    } else if (frames_.empty()) {
+        render_runs(0, samples, cancel, hook);
+    } else {
+        for (std::size_t i = 0; i < frames_.size() && !cancel; ++i) {
+            played_->begin_frame(frames_[i], seeds_.seed(side_, 0, i));
+            render_runs(i, samples, cancel, hook);
+        }
+    }
+    spp_ += samples;
+    return !cancel;
+}
+
+void VerifySide::render_runs(std::size_t frame, std::uint32_t samples, const std::atomic<bool>& cancel,
+                             const RunHook& hook) {
+    for (std::uint32_t run = 0; run < run_count_ && !cancel; ++run) {
+        hook(name_, run);
+        played_->renderer().restart(seeds_.seed(side_, run, frame));
+        played_->renderer().render(spp_, samples, cancel);
+        keep(frame, run, spp_, samples);
+    }
+}
+
+void VerifySide::play_chain(std::uint32_t run, std::uint32_t done, const std::atomic<bool>& cancel) {
+    const std::uint32_t seed = seeds_.seed(side_, run, done / frame_spp_);
+    for (std::uint32_t frame = 0, judged = 0; judged < frames_.size() && !cancel; ++frame) {
+        played_->render_frame(played_->begin_frame(frame, seed), cancel);
+        if (frame == frames_[judged]) {
+            keep(judged, run, done, frame_spp_);
+            ++judged;
+        }
+    }
+}
+
+void VerifySide::keep(std::size_t frame, std::uint32_t run, std::uint32_t done, std::uint32_t samples) {
+    const Film film = played_->renderer().film();
+    nonfinite_ += film_totals(film).nonfinite;
+    const RunMeans means = tile_means(film, tile_);
+    RunMeans& kept = runs_[frame][run];
+    kept = done == 0 ? means : merge_means(kept, done, means, samples);
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,235 @@
+#include "commands/verify/suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <future>
+
+namespace diptych::app {
+
+namespace {
+
+constexpr std::uint32_t first_spp = 4;         // where time is the limit
+constexpr double least_extension = 0.2;        // of the samples so far: less is not worth it
+constexpr std::uint32_t second_stage_spp = 4;  // times the first's
+constexpr double second_stage_alpha = 0.1;     // likewise
+constexpr double first_stage_time = 0.2;       // leaves the second stage its four times as many samples
+constexpr std::uint32_t most_spp = 1U << 30U;
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Stage {
+    std::vector<PairName> pairs;
+    std::uint32_t seed = 0;  // the user's
+    SeedPurpose purpose = SeedPurpose::verify;
+    std::uint32_t spp = 0;
+    std::uint32_t reference_spp = 0;
+    double seconds = 0;  // 0: spp is what counts
+    VerdictLimits limits;
+    int number = 1;
+};
+
+/// A side of several pairs is rendered once. Candidates and references are apart, even where they bear one name.
+struct Sides {
+    struct Wanted {
+        SideName name;
+        bool is_reference = false;
+        std::vector<std::uint32_t> frames;
+    };
+    std::vector<Wanted> wanted;
+    std::vector<VerifySide> all;                               // parallel to wanted
+    std::vector<std::pair<std::size_t, std::size_t>> of_pair;  // indices
+    std::uint64_t chain_step = 0;
+
+    Sides(const Stage& stage, const Scene& scene, const VerifyOptions& options) {
+        for (const PairName& pair : stage.pairs) {
+            const std::size_t a = want(pair.a, false, pair.frame);
+            of_pair.emplace_back(a, want(pair.b, true, pair.frame));
+        }
+        const auto count = static_cast<std::uint32_t>(options.common_seeds ? 1 : wanted.size());
+        const SeedPlan seeds(stage.seed, stage.purpose, count, options.runs);
+        chain_step = seeds.part_step();
+        for (Wanted& side : wanted) {
+            std::sort(side.frames.begin(), side.frames.end());
+            side.frames.erase(std::unique(side.frames.begin(), side.frames.end()), side.frames.end());
+            const auto place = static_cast<std::uint32_t>(options.common_seeds ? 0 : all.size());
+            all.emplace_back(side.name, scene, options, side.frames, seeds, place,
+                             side.is_reference ? stage.reference_spp : stage.spp);
+        }
+    }
+
+    std::size_t want(const SideName& name, bool is_reference, std::optional<std::uint32_t> frame) {
+        auto at = std::find_if(wanted.begin(), wanted.end(), [&](const Wanted& side) {
+            return side.name == name && side.is_reference == is_reference;
+        });
+        if (at == wanted.end()) {
+            at = wanted.insert(at, {name, is_reference, {}});
+        }
+        if (frame) {
+            at->frames.push_back(*frame);
+        }
+        return static_cast<std::size_t>(at - wanted.begin());
+    }
+
+    /// A graphics device renders its sides while the processor renders the others.
+    bool extend(std::uint32_t samples, std::uint32_t reference_samples, const std::atomic<bool>& cancel,
+                const RunHook& hook) {
+        const auto extend_those = [&](bool on_vulkan) {
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                if ((wanted[i].name.backend == "vulkan") == on_vulkan &&
+                    !all[i].extend(wanted[i].is_reference ? reference_samples : samples, cancel, hook)) {
+                    return false;
+                }
+            }
+            return true;
+        };
+        std::future<bool> on_vulkan = std::async(std::launch::async, extend_those, true);
+        const bool others = extend_those(false);
+        return on_vulkan.get() && others;
+    }
+};
+
+std::vector<TileComparison> compare(const std::vector<PairName>& pairs, const Sides& sides, bool common_seeds,
+                                    const TileTestOptions& options = {}) {
+    std::vector<TileComparison> comparisons;
+    const auto test = common_seeds ? compare_common_runs : compare_runs;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto [a, b] = sides.of_pair[i];
+        const auto frame = pairs[i].frame;
+        comparisons.push_back(test(sides.all[a].runs(frame), sides.all[b].runs(frame), options));
+    }
+    return comparisons;
+}
+
+/// Samples to add next; 0 where the time would not suffice for enough of them.
+std::uint32_t next_extension(std::uint32_t spp, double rendering_seconds, double seconds_left) {
+    const double share = std::min(1.0, seconds_left / std::max(rendering_seconds, 1e-9));
+    return share < least_extension || spp >= most_spp ? 0 : static_cast<std::uint32_t>(std::floor(spp * share));
+}
+
+/// The next number of samples that chains of so many samples a frame can give.
+std::uint32_t whole_chains(std::uint32_t samples, const VerifyOptions& options) {
+    return (samples + options.frame_spp - 1) / options.frame_spp * options.frame_spp;
+}
+
+bool render_stage(const Stage& stage, Sides& sides, const VerifyOptions& options, const std::atomic<bool>& cancel,
+                  const RunHook& hook) {
+    const double start = now();
+    if (stage.seconds == 0) {
+        return sides.extend(stage.spp, stage.reference_spp, cancel, hook);
+    }
+    std::uint32_t samples = whole_chains(first_spp, options);
+    while (samples > 0) {
+        if (!sides.extend(samples, samples, cancel, hook)) {
+            return false;
+        }
+        const double rendering = now() - start;
+        const std::vector<TileComparison> comparisons =
+            compare(stage.pairs, sides, options.common_seeds, {.resamplings = 0});  // for their widths
+        if (std::all_of(comparisons.begin(), comparisons.end(),
+                        [&](const TileComparison& c) { return has_power(c, stage.limits); })) {
+            break;
+        }
+        samples =
+            whole_chains(next_extension(sides.all.front().spp(), rendering, start + stage.seconds - now()), options);
+        for (const VerifySide& side : sides.all) {  // as many as there are seeds for
+            samples = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples, side.most_spp() - side.spp()));
+        }
+    }
+    return true;
+}
+
+std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Scene& scene, const VerifyOptions& options,
+                                                 const std::atomic<bool>& cancel, const RunHook& hook) {
+    Sides sides(stage, scene, options);
+    if (!render_stage(stage, sides, options, cancel, hook)) {
+        return std::nullopt;
+    }
+    const std::vector<TileComparison> comparisons = compare(stage.pairs, sides, options.common_seeds);
+    const std::vector<PairVerdict> verdicts = judge(comparisons, stage.limits);
+    std::vector<PairResult> results;
+    for (std::size_t i = 0; i < stage.pairs.size(); ++i) {
+        const auto [a, b] = sides.of_pair[i];
+        PairResult result;
+        result.names = stage.pairs[i];
+        result.comparison = comparisons[i];
+        result.verdict = verdicts[i];
+        result.alpha = stage.limits.alpha;
+        result.spp = sides.all[a].spp();
+        result.spp_b = sides.all[b].spp();
+        result.seed_a = sides.all[a].first_seed(result.names.frame);
+        result.seed_b = sides.all[b].first_seed(result.names.frame);
+        result.chain_step = sides.chain_step;
+        result.stage = stage.number;
+        result.device_a = sides.all[a].device();
+        result.device_b = sides.all[b].device();
+        const std::uint64_t nonfinite = sides.all[a].nonfinite() + sides.all[b].nonfinite();
+        if (nonfinite > 0) {
+            result.verdict.verdict = Verdict::fail;
+            result.verdict.reason = fmt::format("{} samples were not finite, or negative, and dropped", nonfinite);
+        }
+        results.push_back(result);
+    }
+    return results;
+}
+
+/// The pairs that failed get another chance, with seeds of their own; what they say then stands.
+bool run_second_stage(Stage stage, const Scene& scene, const VerifyOptions& options, const std::atomic<bool>& cancel,
+                      const RunHook& hook, std::vector<PairResult>& results) {
+    std::vector<std::size_t> failed;
+    stage.pairs.clear();
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        if (results[i].verdict.verdict == Verdict::fail) {
+            failed.push_back(i);
+            stage.pairs.push_back(results[i].names);
+        }
+    }
+    if (failed.empty()) {
+        return true;
+    }
+    stage.number = 2;
+    stage.purpose = SeedPurpose::verify_again;
+    stage.spp = second_stage_spp * results[failed.front()].spp;
+    stage.reference_spp = second_stage_spp * results[failed.front()].spp_b;
+    stage.seconds = 0;
+    stage.limits.alpha *= second_stage_alpha;
+    const std::optional<std::vector<PairResult>> again = run_stage(stage, scene, options, cancel, hook);
+    for (std::size_t i = 0; again && i < failed.size(); ++i) {
+        results[failed[i]] = (*again)[i];
+    }
+    return again.has_value();
+}
+
+}  // namespace
+
+std::optional<SuiteResult> run_suite(const VerifyOptions& options, const std::vector<PairName>& pairs,
+                                     const Scene& scene, std::uint32_t seed, const std::atomic<bool>& cancel,
+                                     const RunHook& hook) {
+    const double start = now();
+    const RenderSettings& settings = options.arguments.request.settings;
+    Stage stage;
+    stage.pairs = pairs;
+    stage.seed = seed;
+    stage.spp = options.spp;
+    stage.reference_spp = options.against_spp > 0 ? options.against_spp : options.spp;
+    stage.seconds = options.seconds * (options.fresh_seeds ? first_stage_time : 1);
+    stage.limits.alpha = options.alpha;
+    stage.limits.max_half_width = options.max_half_width;
+    stage.limits.max_tile_half_width = options.max_tile_half_width;
+    std::optional<std::vector<PairResult>> results = run_stage(stage, scene, options, cancel, hook);
+    if (!results || (options.fresh_seeds && !run_second_stage(stage, scene, options, cancel, hook, *results))) {
+        return std::nullopt;
+    }
+    SuiteResult suite;
+    suite.pairs = std::move(*results);
+    suite.grid = tile_grid(settings.width, settings.height, options.tile);
+    suite.seed = seed;
+    suite.seconds = now() - start;
+    return suite;
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,78 @@
+#include "console/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "build_info.h"
+
+namespace diptych::app {
+
+namespace {
+
+void print_error_line(const std::string& line) {
+    fmt::print(stderr, "diptych: {}\n", one_line(line));
+    std::fflush(stderr);
+}
+
+std::string scaled(double value, double thousand, const std::vector<const char*>& units) {
+    std::size_t unit = 0;
+    while (value >= thousand && unit + 1 < units.size()) {
+        value /= thousand;
+        ++unit;
+    }
+    return fmt::format("{:.{}f} {}", value, unit == 0 ? 0 : value < 10 ? 2 : 1, units[unit]);
+}
+
+}  // namespace
+
+std::string program_version() {
+    const std::string mutant = build_info::mutant;
+    return fmt::format("diptych {} (commit {}{}{})", build_info::version, build_info::commit,
+                       build_info::modified ? ", modified" : "", mutant.empty() ? "" : ", mutant " + mutant);
+}
+
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') {
+        text.pop_back();
+    }
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+void report_error(const std::string& message) {
+    print_error_line(message);
+}
+void report_warning(const std::string& message) {
+    print_error_line("warning: " + message);
+}
+
+void report_warnings(const std::vector<std::string>& messages) {
+    std::set<std::string> seen;
+    for (const std::string& message : messages) {
+        if (seen.insert(message).second) {
+            report_warning(message);
+        }
+    }
+}
+
+void report_warnings(const Warnings& warnings) {
+    report_warnings(warnings.lines());
+}
+
+void print_json(const nlohmann::ordered_json& json) {
+    fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    std::fflush(stdout);
+}
+
+std::string with_prefix(double value) {
+    return scaled(value, 1000, {"", "k", "M", "G", "T"});
+}
+
+std::string byte_text(double bytes) {
+    return scaled(bytes, 1024, {"B", "KiB", "MiB", "GiB", "TiB"});
+}
+
+}  // namespace diptych::app

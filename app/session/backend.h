@@ -1,0 +1,34 @@
+// The renderer that was asked for.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pack/packed_scene.h"
+#include "render/request.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
+
+namespace diptych::app {
+
+/// What --backend may name.
+std::vector<std::string> backend_names();
+
+/// The panels read the packed scene, the oracle the logical one it was made of; both must outlive the renderer. Throws
+/// NoDevice where there is no suitable one, Error where the program was built without that backend.
+std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request);
+
+using RendererMaker = std::function<std::unique_ptr<Renderer>(const Scene& scene, const PackedScene& packed,
+                                                              const RenderRequest& request)>;
+
+/// make_renderer asks `maker` from now on; an empty one undoes that. For tests of what commands ask of renderers.
+void replace_renderers(RendererMaker maker);
+
+/// What the validation layer had to say during the run, as a line on stderr where that is anything. Returns
+/// `exit_code`, or exit_check_failed where it was exit_done and there were messages. Call it when all renderers are
+/// gone.
+int exit_code_after_validation(int exit_code);
+
+}  // namespace diptych::app

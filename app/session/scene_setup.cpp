@@ -1,0 +1,194 @@
+#include "session/scene_setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <sstream>
+
+#include "error.h"
+#include "image/near_miss.h"
+#include "console/report.h"
+#include "pose/clips.h"
+#include "scene/default_camera.h"
+#include "scene/environment_load.h"
+#include "gltf/import.h"
+#include "scene/own_light.h"
+
+namespace diptych::app {
+
+namespace {
+
+/// "R,G,B" as a colour; nothing where the text is not three numbers.
+std::optional<glm::vec3> parse_color(const std::string& text) {
+    glm::vec3 color{0};
+    const char* at = text.data();
+    const char* end = at + text.size();
+    for (int channel = 0; channel < 3; ++channel) {
+        const auto [stop, failure] = std::from_chars(at, end, color[channel]);
+        const bool last = channel == 2;
+        if (failure != std::errc() || (last ? stop != end : stop == end || *stop != ',')) {
+            return std::nullopt;
+        }
+        at = stop + 1;
+    }
+    return color;
+}
+
+Environment requested_environment(const std::string& text, Warnings& warnings) {
+    const std::optional<glm::vec3> color = parse_color(text);
+    if (!color) {
+        const bool like_numbers = text.find_first_not_of("0123456789+-.,eE ") == std::string::npos;
+        if (like_numbers && !std::filesystem::exists(text)) {
+            throw Error(fmt::format("--env {}: wants three numbers R,G,B or a file", text));
+        }
+        std::string lines;
+        const Environment environment = load_environment(text, &lines);
+        std::istringstream stream(lines);
+        for (std::string line; std::getline(stream, line);) {
+            warnings.add(line);
+        }
+        return environment;
+    }
+    for (int channel = 0; channel < 3; ++channel) {
+        if (!std::isfinite((*color)[channel]) || (*color)[channel] < 0) {
+            throw Error(fmt::format("--env {}: radiance must be finite and not negative", text));
+        }
+    }
+    Environment environment;
+    environment.kind = Environment::Kind::constant;
+    environment.scale = *color;
+    return environment;
+}
+
+/// The request's environment. Without one, a neutral sky where the scene would come out black: the one place that
+/// decides so, for every command.
+void find_environment(Scene& scene, RenderRequest& request) {
+    request.adds_neutral_sky = false;
+    if (request.environment == no_environment) {
+        scene.environment = {};
+    } else if (request.environment == neutral_environment) {
+        scene.environment = neutral_sky();
+    } else if (!request.environment.empty()) {
+        scene.environment = requested_environment(request.environment, scene.warnings);
+    } else if (const OwnLight light = request.sun ? OwnLight::enough : own_light(scene); light != OwnLight::enough) {
+        scene.environment = neutral_sky();
+        request.adds_neutral_sky = true;
+        const char* reason =
+            light == OwnLight::absent ? "the scene has no light" : "what emits in the scene is too weak to light it";
+        scene.warnings.add(fmt::format("{}: lit by a neutral sky (--env none leaves it out)", reason), scene.name);
+    }
+}
+
+std::string camera_list(const Scene& scene) {
+    std::string list;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        list += fmt::format("{}{} '{}'", list.empty() ? "" : ", ", i, scene.cameras[i].name);
+    }
+    return list;
+}
+
+/// The camera of that very name, else of that index.
+int find_camera(const Scene& scene, const std::string& wanted) {
+    const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                    [&](const Camera& camera) { return camera.name == wanted; });
+    if (named != scene.cameras.end()) {
+        return static_cast<int>(named - scene.cameras.begin());
+    }
+    std::size_t index = 0;
+    const char* end = wanted.data() + wanted.size();
+    const auto [stop, failure] = std::from_chars(wanted.data(), end, index);
+    if (failure != std::errc() || stop != end || index >= scene.cameras.size()) {
+        std::vector<std::string> names;
+        for (const Camera& camera : scene.cameras) {
+            names.push_back(camera.name);
+        }
+        throw Error(fmt::format("{}: no camera '{}'{}; there are {}", scene.name, wanted, did_you_mean(wanted, names),
+                                names.empty() ? "none" : camera_list(scene)));
+    }
+    return static_cast<int>(index);
+}
+
+void choose_camera(Scene& scene, RenderRequest& request) {
+    if (scene.cameras.empty() && (request.camera.empty() || request.camera == "0")) {
+        scene.cameras.push_back(frame_scene(scene));
+        if (!request.viewpoint.eye) {
+            scene.warnings.add("the scene has no camera: seen by one that frames it", scene.name);
+        }
+    }
+    if (!request.camera.empty()) {
+        request.settings.camera = find_camera(scene, request.camera);
+    }
+}
+
+void choose_clips(Scene& scene, const RenderRequest& request) {
+    if (request.clip.empty()) {
+        play_all_clips(scene);
+    } else {
+        play_clip(scene, find_clip(scene, request.clip));
+    }
+}
+
+}  // namespace
+
+Scene load_requested(RenderRequest& request) {
+    Scene scene = load_gltf(request.scene, {request.ignored_extensions, request.strict, request.allow_external});
+    if (scene.name.empty()) {
+        scene.name = request.scene;
+    }
+    choose_clips(scene, request);
+    find_environment(scene, request);
+    choose_camera(scene, request);
+    return scene;
+}
+
+void place_lights(const Scene& loaded, const RenderRequest& request, Scene& scene) {
+    const bool turned = request.environment_scale != 1 || request.environment_rotation != 0;
+    if (loaded.environment.kind == Environment::Kind::none && turned) {
+        throw Error(fmt::format(
+            "{}: --env-scale and --env-rotate want an environment, and the scene has none: give --env", loaded.name));
+    }
+    const glm::vec3 scale = loaded.environment.scale * static_cast<float>(request.environment_scale);
+    const double rotation = loaded.environment.rotation + request.environment_rotation * std::numbers::pi / 180;
+    const std::size_t lights = loaded.lights.size();
+    scene.environment.scale = scale;
+    scene.environment.rotation = rotation;
+    scene.lights.resize(lights);
+    if (request.sun) {
+        scene.lights.push_back(sun_light(*request.sun));
+    }
+}
+
+void place_camera(const RenderRequest& request, Scene& scene) {
+    Camera& camera = scene.cameras[static_cast<std::size_t>(request.settings.camera)];
+    if (request.lens_radius.value_or(0) > 0 && !request.focus_distance) {
+        throw Error("--aperture: wants --focus, the distance in focus");
+    }
+    place_at(request.viewpoint, camera);
+    camera.lens_radius = request.lens_radius.value_or(camera.lens_radius);
+    camera.focus_distance = request.focus_distance.value_or(camera.focus_distance);
+}
+
+Scene prepare_scene(RenderArguments& arguments) {
+    RenderRequest& request = arguments.request;
+    Scene scene = load_requested(request);
+    place_lights(scene, request, scene);
+    place_camera(request, scene);
+    resolve_size(arguments, scene.cameras[static_cast<std::size_t>(request.settings.camera)]);
+    report_warnings(scene.warnings);
+    return scene;
+}
+
+void report_clips(const Scene& scene, const RenderRequest& request) {
+    const Warnings warnings = clip_warnings(scene);
+    if (request.strict && !warnings.empty()) {
+        throw Error(warnings.lines().front());
+    }
+    report_warnings(warnings);
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,47 @@
+// The one list of a scene's arrays. Each backend expands it: bounds-asserted spans on the CPU; buffer references, the upload
+// loop and the memory report on the GPU. Elements are read through `load_NAME(index)` (hooks.md).
+#ifndef SCENE_BUFFERS_H
+#define SCENE_BUFFERS_H
+
+#include "language/scene_types.h"
+
+// X(element type, name)
+#define SCENE_BUFFERS(X)                    \
+    X(vec3, positions)                      \
+    X(uvec3, triangles)                     \
+    X(vec3, normals)                        \
+    X(vec4, tangents)                       \
+    X(vec2, uvs)                            \
+    X(vec4, colors)                         \
+    X(Instance, instances)                  \
+    X(Geometry, geometries)                 \
+    X(Material, materials)                  \
+    X(TextureSlot, texture_slots)           \
+    X(uint, texels)                         \
+    X(float, srgb_table)                    \
+    X(uint, emitter_slots)                  \
+    X(EmissiveTriangle, emissive_triangles) \
+    X(PunctualLight, punctual_lights)       \
+    X(AliasEntry, light_table)              \
+    X(LightCluster, light_clusters)         \
+    X(ClusterPick, cluster_picks)           \
+    X(vec4, environment_texels)             \
+    X(AliasEntry, environment_table)        \
+    X(Instance, previous_instances)         \
+    X(EmissiveTriangle, previous_emissive_triangles) \
+    X(PunctualLight, previous_punctual_lights)
+
+// Those that differ between two moments of a scene that moves.
+#define MOVING_BUFFERS(X)                   \
+    X(Instance, instances)                  \
+    X(Material, materials)                  \
+    X(EmissiveTriangle, emissive_triangles) \
+    X(PunctualLight, punctual_lights)       \
+    X(AliasEntry, light_table)              \
+    X(LightCluster, light_clusters)         \
+    X(ClusterPick, cluster_picks)           \
+    X(Instance, previous_instances)         \
+    X(EmissiveTriangle, previous_emissive_triangles) \
+    X(PunctualLight, previous_punctual_lights)
+
+#endif

@@ -1,0 +1,355 @@
+// The path integrator (Kajiya 1986; Veach 1997) in its three forms, which share one integrand and differ in how they find light:
+// `brdf` by sampling the material, `direct` by sampling lights, `path` by both, weighted by MIS. What only one strategy can find
+// (punctual lights; lights seen directly or in a mirror) counts fully in all three.
+#ifndef PATH_KERNEL_H
+#define PATH_KERNEL_H
+
+#include "geometry/alpha.kernel.h"
+#include "lights/light_point.kernel.h"
+
+/// The place of a pixel in whatever holds a film's.
+FN uint pixel_index(uvec2 pixel) { return pixel.y * constants.size.x + pixel.x; }
+
+/// One sample of one pixel.
+struct PathSample {
+    vec3 radiance;
+    uint rays;
+    FirstHit first_hit;
+};
+
+/// Of a sample that hits nothing.
+FN FirstHit no_first_hit() {
+    FirstHit hit;
+    hit.albedo = vec3(0.0f, 0.0f, 0.0f);
+    hit.normal = vec3(0.0f, 0.0f, 0.0f);
+    hit.depth = 0.0f;
+    return hit;
+}
+
+/// Russian roulette starts at this vertex and never kills with a probability below 5 %.
+FN float survival_probability(vec3 throughput, uint depth) {
+    return depth < 3u ? 1.0f : min(MUTANT(ROULETTE_BY_RED, max_component(throughput), throughput.x), 0.95f);
+}
+
+/// Names one ray for the hash that decides stochastic alpha. Never NONE.
+FN uint ray_alpha_key(IN(Sampler) random, uint ray) {
+    if (!feature(FEATURE_ALPHA)) {
+        return 0u;
+    }
+    return pcg4d(uvec4(random.key.x, random.key.y, random.sample_index, 0x416c7068u ^ ray)).x >> 1;
+}
+
+/// Weight of finding a light by sampling the material with density `pdf` where light sampling had density `pdf_light`.
+FN float bsdf_sampling_weight(float pdf, float pdf_light) {
+    if (constants.integrator >= INTEGRATOR_PATH) {
+        return MUTANT(MIS_ONE_AT_HIT, mis_weight(constants.mis, pdf, pdf_light), 1.0f);
+    }
+    return constants.integrator == INTEGRATOR_BRDF ? 1.0f : 0.0f;
+}
+
+FN float light_sampling_weight(IN(LightSample) light, float pdf) {
+    if (light.delta || constants.integrator < INTEGRATOR_PATH) {
+        return 1.0f;
+    }
+    return MUTANT(MIS_ONE_AT_LIGHT, mis_weight(constants.mis, light.pdf, pdf), 1.0f);
+}
+
+/// Whether a ray that found light by sampling the material, from a vertex that could also sample lights, needs the light's pdf.
+FN bool needs_light_pdf() { return feature(FEATURE_LIGHT_SAMPLING) && constants.integrator >= INTEGRATOR_PATH; }
+
+/// Density with which `reference` would have sampled this point of a surface as a light, from the hit's ids.
+FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
+    if (!feature(FEATURE_EMISSIVE) || s.emitter_slot == NONE) {
+        return 0.0f;
+    }
+    uint first = load_emitter_slots(s.emitter_slot);
+    if (first == NONE) {
+        return 0.0f;
+    }
+    return pdf_emitter(load_emissive_triangles(first + s.primitive), reference, s.position);
+}
+
+/// Whether light adds nothing. NaN is not black: it has to reach the film, which counts it.
+FN bool is_black(vec3 radiance) { return radiance.x == 0.0f && radiance.y == 0.0f && radiance.z == 0.0f; }
+
+/// One sampled light, all but its visibility: `radiance` is what it adds where the shadow ray is free. Where that is black, no ray
+/// is needed. The ray starts where the path's next one does.
+struct DirectLight {
+    vec3 radiance;
+    vec3 direction;  // of the shadow ray
+    float t_max;
+};
+
+FN DirectLight no_direct_light() {
+    DirectLight direct;
+    direct.radiance = vec3(0.0f, 0.0f, 0.0f);
+    direct.direction = vec3(0.0f, 0.0f, 1.0f);
+    direct.t_max = 0.0f;
+    return direct;
+}
+
+/// Where a path has arrived and scatters.
+struct Vertex {
+    vec3 position;
+    vec3 origin;  // where rays leave the surface
+    SurfaceBsdf bsdf;
+    SeenBsdf seen;
+    uint dimension;  // its first
+    FourPairs draws;
+    uint light;                 // picked; NONE where there is none to sample
+    TriangleSample on_emitter;  // where an emitter is picked: a point of it
+};
+
+/// Of a vertex with a light picked.
+FN DirectLight sample_direct_light(IN(Vertex) v, IN(Sampler) random) {
+    DirectLight direct = no_direct_light();
+    LightSample light = sample_light(v.light, v.on_emitter, v.position, v.draws, random, v.dimension);
+    RECORD(light_pdf, light.pdf);
+    if (!(light.pdf > 0.0f) || is_black(light.radiance)) {
+        return direct;
+    }
+    BsdfValue f = surface_bsdf_eval_pdf(v.bsdf, v.seen, light.direction, features());
+    direct.radiance = f.value * light.radiance * (light_sampling_weight(light, f.pdf) / light.pdf);
+    direct.direction = light.distant ? light.direction : light.end - v.origin;
+    direct.t_max = light.distant ? INFINITE_DISTANCE : MUTANT(SHORT_SHADOW_RAY, 0.9999f, 0.9999f * 0.99f);
+    return direct;
+}
+
+/// Light from a point that resampling chose, weighed by its W.
+FN DirectLight resampled_direct_light(IN(Vertex) v, IN(Reservoir) chosen) {
+    DirectLight direct = no_direct_light();
+    if (!(chosen.weight > 0.0f)) {
+        return direct;
+    }
+    SeenLight light = see_light_point(chosen.point, v.position, MOMENT_CURRENT);
+    BsdfValue f = surface_bsdf_eval_pdf(v.bsdf, v.seen, light.direction, features());
+    direct.radiance = f.value * light.radiance * (light.measure * chosen.weight);
+    direct.direction = light.distant ? light.direction : light.end - v.origin;
+    direct.t_max = light.distant ? INFINITE_DISTANCE : 0.9999f;
+    return direct;
+}
+
+/// Whether the first vertex takes its direct light, all of it, from a reservoir.
+FN bool resamples_first_vertex() { return feature(FEATURE_RESAMPLING) && constants.integrator >= INTEGRATOR_RIS; }
+
+/// A path on its way: the ray it goes on along and what it has gathered.
+struct PathState {
+    Sampler random;
+    PathSample found;
+    vec3 origin;
+    vec3 direction;
+    vec3 throughput;
+    vec3 reference;        // the last vertex, from which lights were sampled too
+    float pdf_direction;   // of `direction`, per solid angle
+    bool only_strategy;    // no light sampling could have found what this ray finds
+    bool goes_on;
+    uint depth;            // scattering events so far
+    DirectLight direct;    // sampled at the last vertex, not yet tested for visibility
+    Reservoir reservoir;   // of the first vertex, where light is resampled
+    bool light_is_complete;  // at the last vertex: what the next ray finds has been counted, unless it is the only strategy
+};
+
+FN PathState begin_path(uvec2 pixel, uint sample_index) {
+    PathState path;
+    path.random = make_sampler(pixel, sample_index, constants.seed, constants.sampler_kind, constants.sample_count);
+    path.found.radiance = vec3(0.0f, 0.0f, 0.0f);
+    path.found.rays = 0u;
+    path.found.first_hit = no_first_hit();
+
+    vec2 jitter = sample_2d(path.random, DIMENSION_FILM);
+    uvec2 place = pixel;
+    uvec2 size = constants.size;
+    if (feature(FEATURE_RESAMPLING) && constants.atlas_tile != 0u) {
+        size = uvec2(constants.atlas_tile, constants.atlas_tile);
+        place = uvec2(pixel.x % size.x, pixel.y % size.y);
+    }
+    vec2 film = vec2((float(place.x) + jitter.x) / float(size.x), (float(place.y) + jitter.y) / float(size.y));
+    vec2 lens = vec2(0.5f, 0.5f);
+    if (feature(FEATURE_THIN_LENS)) {
+        lens = sample_2d(path.random, DIMENSION_LENS);
+    }
+    camera_ray(constants.camera, film, lens, feature(FEATURE_THIN_LENS), feature(FEATURE_ORTHOGRAPHIC), path.origin,
+               path.direction);
+    path.throughput = vec3(1.0f, 1.0f, 1.0f);
+    path.reference = path.origin;
+    path.pdf_direction = 0.0f;
+    path.only_strategy = true;
+    path.goes_on = true;
+    path.depth = 0u;
+    path.direct = no_direct_light();
+    path.reservoir = empty_reservoir();
+    path.light_is_complete = false;
+    return path;
+}
+
+/// Light from infinity, found by a ray that left the scene.
+FN void add_environment(INOUT(PathState) path) {
+    if (path.light_is_complete && !path.only_strategy) {
+        return;
+    }
+    vec3 radiance = environment_radiance(path.direction);
+    RECORD(emission_weight, 1.0f);
+    if (!path.only_strategy) {
+        float pdf_light = needs_light_pdf() ? pdf_environment(path.direction) : 0.0f;
+        float weight = bsdf_sampling_weight(path.pdf_direction, pdf_light);
+        radiance = radiance * weight;
+        RECORD(emission_weight, weight);
+    }
+    path.found.radiance += path.throughput * radiance;
+    RECORD(emission, path.throughput * radiance);
+}
+
+/// Light that the surface hit emits toward the path.
+FN void add_emission(INOUT(PathState) path, IN(Surface) surface, IN(Material) material) {
+    bool emits = feature(FEATURE_EMISSIVE) && (material.flags & MATERIAL_EMISSIVE) != 0u &&
+                 (path.only_strategy || !path.light_is_complete);
+    if (emits && (dot(surface.normal, path.direction) < 0.0f || (material.flags & MATERIAL_DOUBLE_SIDED) != 0u)) {
+        float weight = 1.0f;
+        if (!path.only_strategy) {
+            float pdf_light = needs_light_pdf() ? pdf_light_of_hit(surface, path.reference) : 0.0f;
+            weight = bsdf_sampling_weight(path.pdf_direction, pdf_light);
+        }
+        weight = MUTANT(EMISSION_TWICE, weight, path.depth == 1u ? 2.0f * weight : weight);
+        vec3 emission = path.throughput * (weight * material_emission(material, surface.mesh));
+        path.found.radiance += emission;
+        RECORD(emission, emission);
+        RECORD(emission_weight, weight);
+    }
+}
+
+FN uint next_ray_key(IN(PathState) path) { return ray_alpha_key(path.random, 2u * path.depth); }
+
+FN uint shadow_ray_key(IN(PathState) path) { return ray_alpha_key(path.random, 2u * path.depth - 1u); }
+
+/// The path's ray has been traced: adds what light it found, and picks a light for where it ended. Whether it scatters there: then
+/// a point on the emitter picked, if any, and leave_vertex are to follow.
+FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
+    uint depth = path.depth;
+    path.found.rays += 1u;
+    path.goes_on = false;
+    if (hit.instance == NONE) {
+        add_environment(path);
+        return false;
+    }
+    vec3 wo = -path.direction;
+    LOCAL(Instance) instance = load_instances(hit.instance);
+    Surface surface = load_surface(hit, instance, path.origin, path.direction);
+    LOCAL(Material) material = load_materials(surface.mesh.geometry.material);
+    RECORD(position, surface.position);
+    RECORD(barycentrics, surface.mesh.barycentrics);
+    add_emission(path, surface, material);
+
+    bool last = MUTANT(DEPTH_OFF_BY_ONE, depth == constants.max_depth, depth > constants.max_depth) ||
+                (material.flags & MATERIAL_UNLIT) != 0u;
+    bool wants_layers = feature(FEATURE_FIRST_HIT_LAYERS) && depth == 0u;
+    if (last && !wants_layers) {
+        return false;
+    }
+    v.bsdf = load_bsdf(surface, instance, material, wo);
+    v.seen = see_bsdf(v.bsdf, wo, features());
+    RECORD(normal, v.bsdf.mapped_normal);
+    if (wants_layers) {
+        path.found.first_hit.albedo = xyz(base_color(material, surface.mesh));
+        path.found.first_hit.normal =
+            v.seen.mapped == NORMAL_MAP_MICROFACET ? v.bsdf.mapped_normal : v.seen.diffuse_normal;
+        path.found.first_hit.depth = hit.t;
+    }
+    if (last) {
+        return false;
+    }
+    v.position = surface.position;
+    // Nothing is scattered through the surface.
+    v.origin = offset_ray(surface.start, v.bsdf.geometric_normal, surface.magnitude);
+    v.dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
+    v.draws = sample_bits_four_pairs(path.random, v.dimension);
+    v.light = NONE;
+    path.light_is_complete = depth == 0u && resamples_first_vertex();
+    if (!path.light_is_complete && feature(FEATURE_LIGHT_SAMPLING) &&
+        !bsdf_is_purely_delta(v.bsdf.parameters, features())) {
+        v.light = pick_light(v.position, v.draws);
+    }
+    return true;
+}
+
+/// Samples the light picked, or takes what resampling chose, and scatters the path. Visibility of the light is left to the caller, so
+/// that a GPU keeps no surface while it traces.
+FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
+    uint depth = path.depth;
+    if (path.light_is_complete || v.light != NONE) {
+        if (path.light_is_complete) {
+            path.direct = resampled_direct_light(v, path.reservoir);
+        } else {
+            path.direct = sample_direct_light(v, path.random);
+        }
+        path.direct.radiance = path.throughput * path.direct.radiance;
+        RECORD(direct, path.direct.radiance);
+    }
+
+    path.origin = v.origin;
+    path.reference = v.position;
+    path.depth = depth + 1u;
+    if (!feature(FEATURE_LATER_VERTICES)) {
+        return;
+    }
+    vec2 u_direction = vec2(unit_float(v.draws.first.x), unit_float(v.draws.second.x));
+    vec2 u_lobe = vec2(unit_float(v.draws.first.y), unit_float(v.draws.second.y));
+    BsdfSample next = surface_bsdf_sample(v.bsdf, v.seen, u_lobe, u_direction, features());
+    path.throughput = path.throughput * next.weight;
+    path.only_strategy = next.delta != 0u;
+    bool goes_on = next.pdf > 0.0f && max_component(path.throughput) > 0.0f;
+    bool only_lights_left = !path.only_strategy && depth + 1u == constants.max_depth;
+    if (only_lights_left && (constants.integrator == INTEGRATOR_DIRECT || path.light_is_complete)) {
+        goes_on = false;  // the last ray could only find light that has been sampled
+    }
+    float survival = survival_probability(path.throughput, depth);
+    if (goes_on && survival < 1.0f) {
+        float u = sample_1d(path.random, v.dimension + DIMENSION_ROULETTE);
+        goes_on = u < survival;
+        path.throughput = path.throughput * MUTANT(ROULETTE_NOT_DIVIDED, 1.0f / survival, 1.0f);
+        RECORD(survival, survival);
+        RECORD(roulette, goes_on ? ROULETTE_SURVIVED : ROULETTE_KILLED);
+    }
+    RECORD(lobe, next.lobe);
+    RECORD(bsdf_pdf, next.pdf);
+    RECORD(throughput, path.throughput);
+    path.pdf_direction = next.pdf;
+    path.direction = next.direction;
+    path.goes_on = goes_on;
+}
+
+/// Both, for one path alone.
+FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
+    Vertex v;
+    if (!arrive_at_vertex(path, hit, v)) {
+        return;
+    }
+    if (is_emitter(v.light)) {
+        LOCAL(EmissiveTriangle) light = load_emissive_triangles(v.light);
+        v.on_emitter = sample_emitter_point(light, v.position, light_point_draws(v.draws));
+    }
+    leave_vertex(path, v);
+}
+
+FN bool awaits_shadow_ray(IN(PathState) path) { return !is_black(path.direct.radiance); }
+
+/// The shadow ray has been traced.
+FN void settle_direct_light(INOUT(PathState) path, bool occluded) {
+    path.found.rays += 1u;
+    if (!occluded) {
+        path.found.radiance += path.direct.radiance;
+    }
+    path.direct.radiance = vec3(0.0f, 0.0f, 0.0f);
+}
+
+/// Adds one sample to its pixel's film.
+FN void add_path(IN(PathSample) s, INOUT(FilmPixel) film, INOUT(FilmMoments) moments, INOUT(FilmFirstHit) first_hit) {
+    bool kept = film_add(film, s.radiance, s.rays);
+    if (feature(FEATURE_STANDARD_ERROR) && kept) {
+        film_add_moments(moments, s.radiance, film.samples);
+    }
+    if (feature(FEATURE_FIRST_HIT_LAYERS)) {
+        film_add_first_hit(first_hit, s.first_hit, film.samples + film.nonfinite);
+    }
+}
+
+#endif

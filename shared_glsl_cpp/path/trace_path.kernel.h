@@ -1,0 +1,20 @@
+// A path alone, on a backend that traces where it shades.
+#ifndef TRACE_PATH_KERNEL_H
+#define TRACE_PATH_KERNEL_H
+
+#include "path/path.kernel.h"
+
+/// One path from its camera to its end. The Vulkan backend takes these steps by itself, in waves (wave.glsl).
+FN PathSample trace_path(uvec2 pixel, uint sample_index) {
+    PathState path = begin_path(pixel, sample_index);
+    while (path.goes_on) {
+        extend_path(path, trace_closest(path.origin, path.direction, next_ray_key(path)));
+        if (awaits_shadow_ray(path)) {
+            settle_direct_light(
+                path, trace_any(path.origin, path.direct.direction, path.direct.t_max, shadow_ray_key(path)));
+        }
+    }
+    return path.found;
+}
+
+#endif

@@ -1,0 +1,214 @@
+// A first vertex as neighbours in space and time see it: enough to evaluate the target function there, in 36 bytes and in world space, so
+// that it stays true when what it was taken from has moved.
+//
+// The target need not be the integrand, but must be positive wherever the integrand is. Quantised normals could break that at a
+// horizon, so cosines here have a floor wider than the rounding.
+#ifndef REUSE_SURFACE_H
+#define REUSE_SURFACE_H
+
+#include "bsdf/fresnel.h"
+#include "bsdf/ggx.h"
+#include "bsdf/surface_bsdf.h"
+
+SHARED_BEGIN
+
+CONST float TARGET_COS_MIN = 1.0e-3f;        // floor of cosines to the shading normal; octahedral rounding is below 1e-4
+CONST float TARGET_COS_MIN_FACETS = 0.1f;    // under a microfacet normal map light also comes by the tangent facet
+CONST float TARGET_ALPHA_MIN = 0.001f;       // narrower lobes are widened: octahedral rounding moves their peaks
+CONST float TARGET_ALPHA_MIN_FACETS = 0.1f;  // under such a map, as the target lacks the tangent facet's lobes
+CONST uint REUSE_SURFACE_VALID = 1u;
+CONST uint REUSE_SURFACE_MAPPED = 2u;        // shaded by a normal map's normal
+CONST uint REUSE_SURFACE_FACETS = 4u;        // by a microfacet normal map
+
+/// Packed: unit vectors octahedral, colours with a shared exponent.
+struct ReuseSurface {
+    vec3 position;  // off the surface, where its rays start
+    uint geometric_normal;
+    uint normal;
+    uint wo;
+    uint diffuse;
+    uint f0;
+    uint rest;  // from the low bits: flags 8, f90 8, alpha 16
+};
+ASSERT_SIZE(ReuseSurface, 36);
+
+/// Unpacked.
+struct TargetSurface {
+    vec3 position;
+    vec3 geometric_normal;
+    vec3 normal;
+    vec3 specular_normal;  // the same but where a normal map shades
+    vec3 wo;
+    vec3 diffuse;
+    vec3 f0;
+    float f90;
+    float alpha;
+    uint flags;
+};
+
+FN uint pack_snorm16(float x) { return uint(int(floor(clamp(x, -1.0f, 1.0f) * 32767.0f + 0.5f)) & 0xffff); }
+
+FN float unpack_snorm16(uint bits) { return float((int(bits) << 16) >> 16) * (1.0f / 32767.0f); }
+
+/// Octahedral map of a unit vector (Cigolle et al. 2014), 16 bits an axis.
+FN uint pack_unit_vector(vec3 v) {
+    float scale = 1.0f / (abs(v.x) + abs(v.y) + abs(v.z));
+    float x = v.x * scale;
+    float y = v.y * scale;
+    float folded_x = v.z < 0.0f ? (1.0f - abs(y)) * (x < 0.0f ? -1.0f : 1.0f) : x;
+    float folded_y = v.z < 0.0f ? (1.0f - abs(x)) * (y < 0.0f ? -1.0f : 1.0f) : y;
+    return pack_snorm16(folded_x) | (pack_snorm16(folded_y) << 16);
+}
+
+FN vec3 unpack_unit_vector(uint bits) {
+    float x = unpack_snorm16(bits & 0xffffu);
+    float y = unpack_snorm16(bits >> 16);
+    float z = 1.0f - abs(x) - abs(y);
+    float fold = max(-z, 0.0f);
+    return normalize(vec3(x + (x < 0.0f ? fold : -fold), y + (y < 0.0f ? fold : -fold), z));
+}
+
+/// Colours in [0, 1] as three 9-bit fractions of a power of two; any positive channel stays positive.
+FN uint pack_color(vec3 color) {
+    vec3 c = clamp(color, vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 1.0f, 1.0f));
+    float largest = max(max_component(c), 1.0e-9f);
+    uint exponent = clamp((floatBitsToUint(largest) >> 23) + 1u, 96u, 127u);  // of a power of two above the largest
+    float scale = 511.0f / uintBitsToFloat(exponent << 23);
+    uint x = min(uint(c.x * scale) + (c.x > 0.0f ? 1u : 0u), 511u);
+    uint y = min(uint(c.y * scale) + (c.y > 0.0f ? 1u : 0u), 511u);
+    uint z = min(uint(c.z * scale) + (c.z > 0.0f ? 1u : 0u), 511u);
+    return x | (y << 9) | (z << 18) | ((exponent - 96u) << 27);
+}
+
+FN vec3 unpack_color(uint bits) {
+    float scale = uintBitsToFloat(((bits >> 27) + 96u) << 23) * (1.0f / 511.0f);
+    return vec3(float(bits & 511u), float((bits >> 9) & 511u), float((bits >> 18) & 511u)) * scale;
+}
+
+FN ReuseSurface no_reuse_surface() {
+    ReuseSurface s;
+    s.position = vec3(0.0f, 0.0f, 0.0f);
+    s.geometric_normal = 0u;
+    s.normal = 0u;
+    s.wo = 0u;
+    s.diffuse = 0u;
+    s.f0 = 0u;
+    s.rest = 0u;
+    return s;
+}
+
+FN bool is_valid(IN(ReuseSurface) s) { return (s.rest & REUSE_SURFACE_VALID) != 0u; }
+
+/// The normal of a surface that neighbours are to know.
+FN vec3 reuse_normal(IN(SurfaceBsdf) bsdf, vec3 wo) {
+    if (bsdf.mapped == NORMAL_MAP_SHADING) {
+        return bend_toward(bsdf.mapped_normal, bsdf.geometric_normal, MAPPED_COS);
+    }
+    return bent_normal(bsdf.mapped_normal, bsdf.geometric_normal, wo);
+}
+
+FN ReuseSurface pack_reuse_surface(vec3 position, IN(SurfaceBsdf) bsdf, vec3 wo) {
+    ReuseSurface s;
+    s.position = position;
+    s.geometric_normal = pack_unit_vector(bsdf.geometric_normal);
+    s.normal = pack_unit_vector(reuse_normal(bsdf, wo));
+    s.wo = pack_unit_vector(wo);
+    s.diffuse = pack_color(bsdf.parameters.diffuse);
+    s.f0 = pack_color(bsdf.parameters.f0);
+    float f90 = clamp(max_component(bsdf.parameters.f90), 0.0f, 1.0f);
+    uint f90_bits = min(uint(f90 * 255.0f) + (f90 > 0.0f ? 1u : 0u), 255u);
+    uint alpha_bits = uint(clamp(bsdf.parameters.alpha, 0.0f, 1.0f) * 65535.0f);
+    uint mapped_bits = bsdf.mapped == NORMAL_MAP_SHADING ? REUSE_SURFACE_MAPPED : 0u;
+    mapped_bits = bsdf.mapped == NORMAL_MAP_MICROFACET ? REUSE_SURFACE_FACETS : mapped_bits;
+    s.rest = REUSE_SURFACE_VALID | mapped_bits | (f90_bits << 8) | (alpha_bits << 16);
+    return s;
+}
+
+/// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it
+/// by the square of the ratio: a point that others chose by the wide lobe would be a firefly now and then, where
+/// sampling the material finds none. The same holds where light comes by a narrow lobe of a microfacet normal map's
+/// tangent facet. Rounding of wo moves the half vector the more, the more grazing the view is.
+FN bool wants_reuse(IN(SurfaceBsdf) bsdf, vec3 wo) {
+    vec3 normal = reuse_normal(bsdf, wo);
+    if (bsdf.mapped == NORMAL_MAP_SHADING) {
+        normal = specular_normal(normal, bsdf.geometric_normal, wo);
+    }
+    bool glossy = max(max_component(bsdf.parameters.f0), max_component(bsdf.parameters.f90)) > 0.0f;
+    float least = bsdf.mapped == NORMAL_MAP_MICROFACET && glossy ? TARGET_ALPHA_MIN_FACETS : TARGET_ALPHA_MIN;
+    return bsdf.parameters.alpha >= least && bsdf.parameters.alpha * dot(normal, wo) >= 0.5f * TARGET_ALPHA_MIN;
+}
+
+/// `features`: bits of scene_features.h that may be needed; without normal maps their code is dropped.
+FN TargetSurface unpack_reuse_surface(IN(ReuseSurface) s, uint features) {
+    TargetSurface t;
+    t.position = s.position;
+    t.geometric_normal = unpack_unit_vector(s.geometric_normal);
+    t.normal = unpack_unit_vector(s.normal);
+    t.wo = unpack_unit_vector(s.wo);
+    t.diffuse = unpack_color(s.diffuse);
+    t.f0 = unpack_color(s.f0);
+    t.f90 = float((s.rest >> 8) & 255u) * (1.0f / 255.0f);
+    t.alpha = max(float(s.rest >> 16) * (1.0f / 65535.0f), TARGET_ALPHA_MIN);
+    t.flags = s.rest & ((features & FEATURE_NORMAL_MAPS) != 0u ? 255u : REUSE_SURFACE_VALID);
+    t.specular_normal = t.normal;
+    if ((t.flags & REUSE_SURFACE_MAPPED) != 0u) {
+        t.specular_normal = specular_normal(t.normal, t.geometric_normal, t.wo);
+    }
+    return t;
+}
+
+/// Its GGX lobe.
+FN vec3 target_specular(IN(TargetSurface) s, vec3 wi, float least) {
+    float cos_i = clamp(dot(wi, s.specular_normal), least, 1.0f);
+    float cos_o = clamp(dot(s.wo, s.specular_normal), least, 1.0f);
+    vec3 sum = s.wo + wi;
+    float squared = dot(sum, sum);
+    if (!(squared > 1.0e-12f)) {
+        return vec3(0.0f, 0.0f, 0.0f);
+    }
+    vec3 h = sum * inversesqrt(squared);
+    float cos_h = clamp(dot(h, s.specular_normal), 0.0f, 1.0f);
+    vec3 sine_h = cross(h, s.specular_normal);  // its length; 1 - cos_h^2 would cancel in narrow lobes
+    float a2 = s.alpha * s.alpha;
+    float t = dot(sine_h, sine_h) + cos_h * cos_h * a2;
+    float d = INV_PI * a2 / (t * t);
+    float masking_o = cos_i * sqrt(cos_o * cos_o * (1.0f - a2) + a2);
+    float masking_i = cos_o * sqrt(cos_i * cos_i * (1.0f - a2) + a2);
+    vec3 fresnel = fresnel_schlick(s.f0, vec3(s.f90, s.f90, s.f90), dot(s.wo, h));
+    return fresnel * (0.5f * d * cos_i / (masking_o + masking_i));
+}
+
+/// About f cos toward the unit direction wi: Lambert plus GGX, whatever the surface's own model.
+FN vec3 target_reflectance(IN(TargetSurface) s, vec3 wi) {
+    if (!(dot(wi, s.geometric_normal) > -TARGET_COS_MIN)) {
+        return vec3(0.0f, 0.0f, 0.0f);
+    }
+    float least = (s.flags & REUSE_SURFACE_FACETS) != 0u ? TARGET_COS_MIN_FACETS : TARGET_COS_MIN;
+    float cos_i = clamp(dot(wi, s.normal), least, 1.0f);
+    vec3 sum = s.diffuse * (INV_PI * cos_i) + target_specular(s, wi, least);
+    if ((s.flags & REUSE_SURFACE_MAPPED) != 0u) {
+        vec3 below = reflect_off(s.geometric_normal, wi);
+        if (dot(below, s.specular_normal) > 0.0f) {
+            sum += target_specular(s, below, least);  // what the lobe sends below the surface
+        }
+    }
+    return sum;
+}
+
+/// Whether two first vertices are alike enough for reuse to pay: near to one plane, facing alike. Depends on geometry alone, so it
+/// biases nothing. `eye`: of the camera.
+FN bool is_similar(IN(ReuseSurface) a, IN(ReuseSurface) b, vec3 eye) {
+    if (!is_valid(a) || !is_valid(b)) {
+        return false;
+    }
+    vec3 normal = unpack_unit_vector(a.normal);
+    vec3 apart = b.position - a.position;
+    vec3 from_eye = a.position - eye;
+    float off_plane = dot(apart, unpack_unit_vector(a.geometric_normal));
+    return dot(normal, unpack_unit_vector(b.normal)) > 0.85f &&
+           off_plane * off_plane < 0.0025f * dot(from_eye, from_eye);
+}
+
+SHARED_END
+
+#endif

@@ -1,0 +1,54 @@
+// Recording and submitting commands.
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "device/gpu.h"
+#include "passes/recorder.h"
+
+namespace diptych {
+
+using Record = std::function<void(Recorder&)>;
+
+/// A command buffer with a fence, used again and again.
+class CommandSlot {
+public:
+    explicit CommandSlot(const Gpu& gpu);
+
+    /// Records and submits; the submission begins with a barrier. The slot must not be in flight.
+    void submit(const Record& record);
+    /// Waits for what was submitted, if anything.
+    void wait();
+    bool in_flight() const { return in_flight_; }
+
+private:
+    const Gpu& gpu_;
+    vk::raii::CommandPool pool_;
+    vk::raii::CommandBuffer commands_ = nullptr;
+    vk::raii::Fence fence_;
+    bool in_flight_ = false;
+};
+
+/// Submissions that nobody waits for: each comes after all that was submitted before it and before all that follows.
+class CommandRing {
+public:
+    explicit CommandRing(const Gpu& gpu) : slots_{CommandSlot(gpu), CommandSlot(gpu)} {}
+    ~CommandRing();
+    CommandRing(const CommandRing&) = delete;
+    CommandRing& operator=(const CommandRing&) = delete;
+
+    /// Records and submits; waits first for the older of two in flight.
+    void submit(const Record& record);
+    /// Waits for all.
+    void drain();
+
+private:
+    std::array<CommandSlot, 2> slots_;
+    std::size_t next_ = 0;
+};
+
+/// Records, submits, waits.
+void run_commands(const Gpu& gpu, const Record& record);
+
+}  // namespace diptych

@@ -1,0 +1,35 @@
+#include "memory/device_film.h"
+
+#include <algorithm>
+
+#include "device/commands.h"
+#include "language/scene_features.h"
+
+namespace diptych {
+namespace {
+
+std::uint32_t layers_of(const Film& film) {
+    return (film.moments.empty() ? 0U : shared::FEATURE_STANDARD_ERROR) |
+           (film.first_hits.empty() ? 0U : shared::FEATURE_FIRST_HIT_LAYERS);
+}
+
+}  // namespace
+
+DeviceFilm FilmUploader::upload(const Film& film) {
+    return in_context("copying a picture to the device", [&] {
+        if (!film_ || !fits(*film_, film.width, film.height, layers_of(film))) {
+            film_ = std::make_shared<FilmMemory>(make_film(*gpu_, film.width, film.height, layers_of(film)));
+        }
+        if (!uploader_) {
+            uploader_ = std::make_unique<Uploader>(
+                *gpu_, std::clamp<std::uint64_t>(film_bytes(*film_), 4096, std::uint64_t{64} << 20U));
+        }
+        uploader_->upload(film_->pixels, std::as_bytes(std::span(film.pixels)));
+        uploader_->upload(film_->moments, std::as_bytes(std::span(film.moments)));
+        uploader_->upload(film_->first_hits, std::as_bytes(std::span(film.first_hits)));
+        uploader_->finish();
+        return DeviceFilm{.gpu = gpu_, .film = film_, .resampling = {}, .reservoir_set = 0};
+    });
+}
+
+}  // namespace diptych

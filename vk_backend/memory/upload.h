@@ -1,0 +1,43 @@
+// Host arrays to device buffers, through one staging buffer.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "memory/buffer.h"
+
+namespace diptych {
+
+/// Gathers copies until the staging buffer is full, then submits them together. finish() sends the rest.
+class Uploader {
+public:
+    explicit Uploader(const Gpu& gpu, std::uint64_t capacity = std::uint64_t{64} << 20U);
+
+    /// Queues the bytes for `buffer`, from its start.
+    void upload(const Buffer& buffer, std::span<const std::byte> bytes);
+    void finish();
+
+private:
+    struct Copy {
+        vk::Buffer target;
+        vk::BufferCopy region;
+    };
+
+    const Gpu& gpu_;
+    Buffer staging_;
+    std::uint64_t used_ = 0;
+    std::vector<Copy> copies_;
+};
+
+/// A device buffer that will hold the elements, with eTransferDst added to its usage. Nothing is allocated for none.
+template <typename T>
+Buffer upload_array(const Gpu& gpu, Uploader& uploader, const char* what, std::span<const T> elements,
+                    vk::BufferUsageFlags usage) {
+    Buffer buffer = make_buffer(gpu, what, elements.size_bytes(), usage | vk::BufferUsageFlagBits::eTransferDst,
+                                MemoryKind::device);
+    uploader.upload(buffer, std::as_bytes(elements));
+    return buffer;
+}
+
+}  // namespace diptych

@@ -1,0 +1,155 @@
+#include "passes/path_waves.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+
+#include "film/film_pixel.h"
+#include "geometry/hit.h"
+#include "memory/readback.h"
+#include "language/scene_features.h"
+
+namespace diptych {
+namespace {
+
+using Usage = vk::BufferUsageFlagBits;
+
+constexpr std::uint64_t most_paths = std::uint64_t{1} << 21U;  // what a wave costs beside its paths is small then
+constexpr std::uint64_t fewest_paths = std::uint64_t{1} << 16U;
+static_assert(most_paths <= most_invocations);
+constexpr std::uint64_t part_of_memory = 16;
+constexpr std::uint64_t bytes_of_path = sizeof(shared::WavePath) + sizeof(shared::FirstHit) +
+                                        2 * sizeof(std::uint32_t) + sizeof(shared::Hit) + sizeof(shared::WaveShadow);
+
+constexpr Use counts_read{Resource::wave_counts, Unit::indirect, Effect::read};
+
+std::uint64_t pixels_of(const shared::Dispatch& dispatch) {
+    return std::uint64_t{dispatch.region.x} * dispatch.region.y;
+}
+
+bool keeps_first_hits(std::uint32_t features) {
+    return (features & shared::FEATURE_FIRST_HIT_LAYERS) != 0;
+}
+
+bool samples_lights(std::uint32_t features) {
+    return (features & shared::FEATURE_LIGHT_SAMPLING) != 0;
+}
+
+std::array<const Buffer*, 6> buffers_of(const WaveMemory& memory) {
+    return {&memory.paths, &memory.first_hits, &memory.queues, &memory.hits, &memory.shadows, &memory.counts};
+}
+
+}  // namespace
+
+std::uint32_t path_capacity(const Gpu& gpu, std::uint64_t pixels) {
+    const std::uint64_t room = largest_heap(gpu, vk::MemoryHeapFlagBits::eDeviceLocal) / part_of_memory / bytes_of_path;
+    return static_cast<std::uint32_t>(std::clamp(pixels, fewest_paths, std::clamp(room, fewest_paths, most_paths)));
+}
+
+WaveMemory make_wave_memory(const Gpu& gpu, std::uint32_t capacity, std::uint32_t features) {
+    const auto make = [&](std::uint64_t bytes, vk::BufferUsageFlags more = {}) {
+        return make_buffer(gpu, "paths in flight", bytes, Usage::eStorageBuffer | Usage::eShaderDeviceAddress | more,
+                           MemoryKind::device);
+    };
+    const std::uint64_t paths = capacity;
+    return {.capacity = capacity,
+            .paths = make(paths * sizeof(shared::WavePath)),
+            .first_hits = make(keeps_first_hits(features) ? paths * sizeof(shared::FirstHit) : 0),
+            .queues = make(paths * 2 * sizeof(std::uint32_t)),
+            .hits = make(paths * sizeof(shared::Hit)),
+            .shadows = make(samples_lights(features) ? paths * sizeof(shared::WaveShadow) : 0),
+            .counts = make((SliceWaves::most_steps + 1) * sizeof(shared::WaveCounts),
+                           Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc)};
+}
+
+bool fits(const WaveMemory& memory, std::uint32_t capacity, std::uint32_t features) {
+    return memory.capacity >= capacity && (capacity > 0 || memory.capacity == 0) &&
+           (memory.first_hits.size > 0) == keeps_first_hits(features) &&
+           (memory.shadows.size > 0) == samples_lights(features);
+}
+
+std::uint64_t wave_memory_bytes(const WaveMemory& memory) {
+    std::uint64_t bytes = 0;
+    for (const Buffer* buffer : buffers_of(memory)) {
+        bytes += buffer->size;
+    }
+    return bytes;
+}
+
+void enter_waves(SceneAddresses& addresses, const WaveMemory& memory) {
+    addresses.wave_paths = memory.paths.address;
+    addresses.wave_first_hits = memory.first_hits.address;
+    addresses.wave_queues = memory.queues.address;
+    addresses.wave_hits = memory.hits.address;
+    addresses.wave_shadows = memory.shadows.address;
+    addresses.wave_counts = memory.counts.address;
+}
+
+SliceWaves::SliceWaves(const WavePipelines& pipelines, const PipelineLayout& layout, const Bindings& bindings,
+                       const WaveMemory& memory, const Slice& slice, const shared::Dispatch& request)
+    : pipelines_(pipelines), layout_(layout), bindings_(bindings), memory_(memory), dispatch_(request) {
+    tell(dispatch_, slice);
+    dispatch_.path_capacity = memory.capacity;
+}
+
+void SliceWaves::begin(Recorder& recorder) {
+    const std::uint64_t paths = pixels_of(dispatch_) * dispatch_.sample_count;
+    if (pipelines_.rays != nullptr) {
+        const std::uint64_t listed = pipelines_.begin_appends ? 0 : paths;
+        count_from(recorder, {.rays = {static_cast<std::uint32_t>(listed), 1, 1},
+                              .shading = {groups_for(listed), 1, 1},
+                              .shadows = {0, 1, 1}});
+    }
+    bind_pass(recorder, *pipelines_.begin, layout_, bindings_, dispatch_);
+    recorder->dispatch(groups_for(paths), 1, 1);
+}
+
+void SliceWaves::step(Recorder& recorder) {
+    trace(recorder, *pipelines_.rays, offsetof(shared::WaveCounts, rays));
+    if (pipelines_.shadows != nullptr) {
+        trace(recorder, *pipelines_.shadows, offsetof(shared::WaveCounts, shadows));
+    }
+    bind_pass(recorder, *pipelines_.shade, layout_, bindings_, dispatch_, {counts_read});
+    recorder->dispatchIndirect(*memory_.counts.handle, counts_at(offsetof(shared::WaveCounts, shading)));
+    ++dispatch_.wave;
+}
+
+void SliceWaves::finish(Recorder& recorder) {
+    if (pipelines_.film == nullptr) {
+        return;
+    }
+    bind_pass(recorder, *pipelines_.film, layout_, bindings_, dispatch_);
+    recorder->dispatch(groups_for(pixels_of(dispatch_)), 1, 1);
+}
+
+shared::WaveCounts SliceWaves::counts_left(const Gpu& gpu) const {
+    return read_array<shared::WaveCounts>(gpu, memory_.counts)[dispatch_.wave];
+}
+
+void SliceWaves::resume(Recorder& recorder, const shared::WaveCounts& left) {
+    static_assert(most_steps % 2 == 0);  // so that the queue that is read stays the same
+    assert(dispatch_.wave == most_steps);
+    count_from(recorder, left);
+}
+
+// Counts of all waves of a submission, from the first's on, so that none has to be cleared between.
+void SliceWaves::count_from(Recorder& recorder, const shared::WaveCounts& first) {
+    std::array<shared::WaveCounts, most_steps + 1> counts;
+    counts.fill({.rays = {0, 1, 1}, .shading = {0, 1, 1}, .shadows = {0, 1, 1}});
+    counts[0] = first;
+    recorder.use({{Resource::wave_counts, Unit::transfer, Effect::write}});
+    recorder->updateBuffer<shared::WaveCounts>(*memory_.counts.handle, 0, counts);
+    dispatch_.wave = 0;
+}
+
+std::uint64_t SliceWaves::counts_at(std::size_t member) const {
+    return dispatch_.wave * sizeof(shared::WaveCounts) + member;
+}
+
+void SliceWaves::trace(Recorder& recorder, const TracePipeline& pipeline, std::size_t counted) const {
+    bind_pass(recorder, pipeline, layout_, bindings_, dispatch_, {counts_read});
+    trace_indirect(recorder, pipeline, memory_.counts.address + counts_at(counted));
+}
+
+}  // namespace diptych

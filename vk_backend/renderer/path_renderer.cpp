@@ -1,0 +1,381 @@
+#include "renderer/path_renderer.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "passes/pass_table.h"
+#include "shader_binaries.h"
+
+namespace diptych {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+InstanceGroups chosen_groups(const Gpu& gpu, const PackedScene& packed, Grouping grouping) {
+    const bool on_cpu = gpu.physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+    const bool wanted = grouping == Grouping::anywhere || (grouping == Grouping::on_gpus && !on_cpu);
+    return wanted ? group_instances(packed) : InstanceGroups{};
+}
+
+PathRendererOptions with_options(PathRendererOptions changes, const VulkanOptions& options) {
+    changes.grouping = options.group_instances ? changes.grouping : Grouping::nowhere;
+    return changes;
+}
+
+constexpr std::uint64_t least_slice = 4096;  // paths
+
+}  // namespace
+
+PipelineShaders scene_shaders(Spirv ray_generation, bool alpha) {
+    PipelineShaders shaders{.ray_generation = ray_generation,
+                            .closest_hit = shader_binary("closest.rchit"),
+                            .closest_miss = shader_binary("closest.rmiss"),
+                            .shadow_miss = shader_binary("shadow.rmiss"),
+                            .closest_any_hit = {},
+                            .shadow_any_hit = {}};
+    if (alpha) {
+        shaders.closest_any_hit = shader_binary("closest.rahit");
+        shaders.shadow_any_hit = shader_binary("shadow.rahit");
+    }
+    return shaders;
+}
+
+void record_dispatch(Recorder& recorder, const TracePipeline& pipeline, const PipelineLayout& layout,
+                     const Bindings& bindings, const shared::Dispatch& dispatch, std::uint32_t width,
+                     std::uint32_t height) {
+    bind_pass(recorder, pipeline, layout, bindings, dispatch);
+    trace(recorder, pipeline, width, height);
+}
+
+PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes)
+    : PathRenderer(open_device(options), packed, with_options(changes, options)) {}
+
+PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, const PathRendererOptions& changes)
+    : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes),
+      schedule_(packed.constants) {
+    const auto start = std::chrono::steady_clock::now();
+    upkeep_ = std::make_unique<CommandRing>(*gpu_);
+    in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
+    in_context("building acceleration structures", [&] { build_structures(packed); });
+    const auto size = glm::ivec2(constants_.size);
+    in_context("making the film", [&] {
+        film_ = films_.emplace_back(std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_)));
+        replace_waves();
+        resampling_ = std::make_shared<ResamplingMemory>(make_resampling_memory(*gpu_, constants_));
+    });
+    costs_.build_seconds = seconds_since(start);
+    count_bytes();
+
+    const auto compile_start = std::chrono::steady_clock::now();
+    in_context("setting up pipelines", [&] {
+        layout_ = make_pipeline_layout(*gpu_);
+        choose_pipelines();
+        bind();
+        queue_ = std::make_unique<TimedQueue>(
+            *gpu_, [this](std::uint64_t work, double seconds) { speed_.learn(work, seconds); });
+    });
+    costs_.compile_seconds = seconds_since(compile_start);
+}
+
+void PathRenderer::build_structures(const PackedScene& packed) {
+    bottom_ = build_bottom_levels(*gpu_, packed, scene_, chosen_groups(*gpu_, packed, changes_.grouping));
+    top_ = build_top_level(*gpu_, packed, bottom_);
+    previous_top_ = packed.keeps_previous ? build_top_level(*gpu_, packed, bottom_) : TopLevel();
+    emitters_ = build_emitters(*gpu_, packed);
+}
+
+void PathRenderer::count_bytes() {
+    costs_.acceleration_bytes = bottom_.bytes + bottom_.grouped_geometries.size + top_.storage.size +
+                                previous_top_.storage.size + emitter_bytes(emitters_);
+    costs_.pass_bytes = resampling_memory_bytes(*resampling_) + wave_memory_bytes(waves_);
+    costs_.bytes =
+        scene_bytes(scene_) + costs_.acceleration_bytes + films_.size() * film_bytes(*film_) + costs_.pass_bytes;
+}
+
+// Resampled light of the first vertex alone needs none.
+bool PathRenderer::goes_in_waves() const {
+    return !resamples() || (features_ & shared::FEATURE_LATER_VERTICES) != 0;
+}
+
+void PathRenderer::replace_waves() {
+    const std::uint64_t pixels = std::uint64_t{constants_.size.x} * constants_.size.y;
+    const std::uint32_t capacity = goes_in_waves() ? path_capacity(*gpu_, pixels) : 0;
+    const std::uint32_t features = goes_in_waves() ? features_ : 0;
+    if (!fits(waves_, capacity, features)) {
+        waves_ = WaveMemory();
+        waves_ = capacity > 0 ? make_wave_memory(*gpu_, capacity, features) : WaveMemory();
+    }
+}
+
+// An empty film that nobody looks at: what is shown stays whole while the next picture begins. There are as many of
+// them as are looked at at a time, and one more.
+void PathRenderer::begin_film() {
+    const auto size = glm::ivec2(constants_.size);
+    std::erase_if(films_, [&](const auto& film) { return !fits(*film, size.x, size.y, features_); });
+    const auto free = std::find_if(films_.begin(), films_.end(),
+                                   [&](const auto& film) { return film.use_count() == (film == film_ ? 2 : 1); });
+    const bool used = free != films_.end();
+    if (used) {
+        film_ = *free;
+    } else {
+        film_ = films_.emplace_back(std::make_shared<FilmMemory>(make_film(*gpu_, size.x, size.y, features_)));
+        count_bytes();
+    }
+    upkeep_->submit([&](Recorder& recorder) {
+        if (used) {
+            record_clear(recorder, *film_);
+        }
+        if (bindings_.set) {
+            record_values(recorder, bindings_, addresses(*film_), constants_);
+        }
+    });
+}
+
+SceneAddresses PathRenderer::addresses(const FilmMemory& film) const {
+    SceneAddresses all = scene_addresses(scene_);
+    all.grouped_geometries = bottom_.grouped_geometries.address;
+    enter_film(all, film);
+    enter_resampling(all, *resampling_);
+    enter_waves(all, waves_);
+    return all;
+}
+
+PipelineConstants PathRenderer::pipeline_constants(bool record_rays) const {
+    return {
+        .features = features_, .record_rays = record_rays ? 1U : 0U, .groups = bottom_.groups.groups.empty() ? 0U : 1U};
+}
+
+TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) const {
+    const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
+    const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
+    const bool alpha = (features_ & shared::FEATURE_ALPHA) != 0;
+    TracePipeline pipeline =
+        make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha), pipeline_constants(record_rays));
+    pipeline.uses = uses_of(ray_generation);
+    save_pipeline_cache(cache, cache_path);
+    return pipeline;
+}
+
+const TracePipeline& PathRenderer::pipeline(Spirv ray_generation) {
+    const auto key = std::tuple(ray_generation.data(), features_, !bottom_.groups.groups.empty());
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
+        return found->second;
+    }
+    return pipelines_.emplace(key, compile(ray_generation, false)).first->second;
+}
+
+const ComputePipeline& PathRenderer::compute_pipeline(Spirv shader) {
+    const auto key = std::tuple(shader.data(), features_);
+    if (const auto found = compute_pipelines_.find(key); found != compute_pipelines_.end()) {
+        return found->second;
+    }
+    const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
+    const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
+    // Groups are the hit shaders' affair, so the key goes without.
+    ComputePipeline made{.pipeline = make_compute_pipeline(*gpu_, layout_, cache, shader, pipeline_constants(false)),
+                         .uses = uses_of(shader)};
+    save_pipeline_cache(cache, cache_path);
+    return compute_pipelines_.emplace(key, std::move(made)).first->second;
+}
+
+void PathRenderer::choose_pipelines() {
+    traced_.clear();
+    computed_.clear();
+    candidates_ = CandidatePipelines();
+    const auto shader_of = [&](ResamplingStage stage) { return resampling_shader(stage, constants_); };
+    if (resamples()) {
+        for (const ResamplingStage stage : {ResamplingStage::first_hits, ResamplingStage::shadows}) {
+            if (needs_stage(stage, constants_)) {
+                traced_[stage] = &pipeline(shader_of(stage));
+            }
+        }
+        for (const ResamplingStage stage : {ResamplingStage::temporal, ResamplingStage::spatial}) {
+            if (needs_stage(stage, constants_) && reuse_traces(constants_)) {
+                traced_[stage] = &pipeline(shader_of(stage));
+            } else if (needs_stage(stage, constants_)) {
+                computed_[stage] = &compute_pipeline(shader_of(stage));
+            }
+        }
+        candidates_.picked = &compute_pipeline(shader_of(ResamplingStage::candidates));
+        if (constants_.resampling.bsdf_candidates != 0) {
+            candidates_.bsdf = &pipeline(shader_binary("restir_bsdf_candidates.rgen"));
+            if (constants_.integrator == shared::INTEGRATOR_RESTIR) {
+                candidates_.shares = &pipeline(shader_binary("restir_share_picked.rgen"));
+            }
+        }
+        if (tests_candidates(constants_)) {
+            candidates_.shadows = &pipeline(shader_binary("restir_candidate_shadows.rgen"));
+        }
+    }
+    const Spirv begin = resamples() ? shader_of(ResamplingStage::shade) : shader_binary("wave_begin.comp");
+    wave_pipelines_ = {.begin = &compute_pipeline(begin), .begin_appends = resamples()};
+    if (goes_in_waves()) {
+        const bool samples_lights = (features_ & shared::FEATURE_LIGHT_SAMPLING) != 0;
+        wave_pipelines_.rays = &pipeline(shader_binary("wave_rays.rgen"));
+        wave_pipelines_.shade = &compute_pipeline(shader_binary("wave_shade.comp"));
+        wave_pipelines_.shadows = samples_lights ? &pipeline(shader_binary("wave_shadows.rgen")) : nullptr;
+        wave_pipelines_.film = &compute_pipeline(shader_binary("wave_film.comp"));
+    }
+}
+
+Structures PathRenderer::structures() const {
+    return {.scene = *top_.structure, .previous = *previous_top_.structure, .emitters = *emitters_.top};
+}
+
+void PathRenderer::bind() {
+    bindings_ = make_bindings(*gpu_, layout_, structures(), addresses(*film_), constants_);
+    if (!resamples()) {
+        warm_up();
+    }
+}
+
+void PathRenderer::require_bound() const {
+    if (!bindings_.set) {
+        throw Error("Vulkan device " + gpu_->name + ": its last settings could not be taken over");
+    }
+}
+
+// Some drivers compile at the first dispatch. This path is added to no film, and keeps that time out of the measured
+// ones.
+void PathRenderer::warm_up() const {
+    run_commands(*gpu_, [&](Recorder& recorder) {
+        SliceWaves path(wave_pipelines_, layout_, bindings_, waves_, {{0, 0, 1, 1}, 0, 1});
+        SliceWaves nothing(wave_pipelines_, layout_, bindings_, waves_, {{0, 0, 1, 1}, 0, 0});
+        path.begin(recorder);
+        path.step(recorder);
+        path.step(recorder);  // the first that may trace a shadow ray
+        nothing.finish(recorder);
+    });
+}
+
+void PathRenderer::render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
+    require_bound();
+    in_context("rendering", [&] {
+        if (resamples()) {
+            render_frames(first, count, cancel);
+        } else {
+            render_paths(first, count, cancel);
+        }
+        queue_->drain();
+    });
+}
+
+void PathRenderer::restart(std::uint32_t seed) {
+    require_bound();
+    in_context("starting over", [&] {
+        constants_.seed = seed;
+        schedule_.restart();
+        begin_film();
+    });
+}
+
+void PathRenderer::clear_film() {
+    in_context("emptying the film", [&] { begin_film(); });
+}
+
+void PathRenderer::move_to(const PackedScene& moment) {
+    require_bound();
+    in_context("moving the scene", [&] {
+        if (!mover_) {
+            mover_ = std::make_unique<Uploader>(
+                *gpu_, std::clamp<std::uint64_t>(moving_bytes(moment), 4096, std::uint64_t{64} << 20U));
+        }
+        upload_moment(*mover_, moment, scene_);
+        if (moment.keeps_previous &&
+            MUTANT(PREVIOUS_STRUCTURE_STAYS, true, moment.revisions.instances != top_.revision)) {
+            std::swap(top_, previous_top_);
+        }
+        move_top_level(*gpu_, moment, bottom_, top_);
+        move_emitters(*gpu_, moment, emitters_);
+        if (moment.keeps_previous) {
+            replace_structures(*gpu_, bindings_, structures());
+        }
+        const std::uint32_t seed = constants_.seed;
+        constants_ = moment.constants;
+        constants_.seed = seed;
+        upkeep_->submit([&](Recorder& recorder) { record_values(recorder, bindings_, addresses(*film_), constants_); });
+    });
+}
+
+std::uint64_t PathRenderer::slice_budget() const {
+    return changes_.slice_budget > 0 ? changes_.slice_budget : speed_.budget();
+}
+
+void PathRenderer::render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
+    SliceCursor cursor({0, 0, constants_.size.x, constants_.size.y}, first, count);
+    while (!cursor.done() && !cancel.load()) {
+        submit_slice(*queue_, wave_pipelines_, bindings_, next_slice(cursor, speed_));
+    }
+}
+
+// Waves take time whatever they hold, so no slice is cut as short as one likes.
+Slice PathRenderer::next_slice(SliceCursor& cursor, const SpeedEstimate& speed) const {
+    const std::uint64_t budget =
+        changes_.slice_budget > 0 ? changes_.slice_budget : std::max(speed.budget(), least_slice);
+    return cursor.next(std::min<std::uint64_t>(budget, waves_.capacity),
+                       gpu_->ray_tracing.maxRayDispatchInvocationCount);
+}
+
+// As many waves as the deepest path may take: rays that end at its last vertex find light there, and ask for none. A
+// resampled path has its first vertex behind it. Of very many waves, those that come after all paths have ended are
+// left out.
+void PathRenderer::submit_slice(TimedQueue& queue, const WavePipelines& pipelines, const Bindings& bindings,
+                                const Slice& slice, const shared::Dispatch& request, std::size_t label) const {
+    SliceWaves waves(pipelines, layout_, bindings, waves_, slice, request);
+    std::uint64_t steps = goes_in_waves() ? std::uint64_t{constants_.max_depth} + (resamples() ? 0 : 1) : 0;
+    const auto submit = [&](std::uint64_t work, auto&& start) {
+        const TimedPart part{label, [&](Recorder& recorder) {
+                                 start(recorder);
+                                 for (std::uint32_t i = 0; i < SliceWaves::most_steps && steps > 0; ++i, --steps) {
+                                     waves.step(recorder);
+                                 }
+                                 if (steps == 0) {
+                                     waves.finish(recorder);
+                                 }
+                             }};
+        queue.submit(work, std::span(&part, 1));
+    };
+    submit(slice.work(), [&](Recorder& recorder) { waves.begin(recorder); });
+    while (steps > 0) {
+        queue.drain();
+        const shared::WaveCounts left = waves.counts_left(*gpu_);
+        steps = left.rays.x > 0 ? steps : 1;  // for shadow rays that may be left
+        submit(0, [&](Recorder& recorder) { waves.resume(recorder, left); });
+    }
+}
+
+DeviceFilm PathRenderer::device_film() const {
+    return {.gpu = gpu_,
+            .film = film_,
+            .resampling = reservoir_set_ ? resampling_ : nullptr,
+            .reservoir_set = reservoir_set_.value_or(0)};
+}
+
+void PathRenderer::aim_dispatches(double seconds) {
+    dispatch_seconds_ = seconds;
+    speed_.aim(seconds);
+    if (recording_speed_) {
+        recording_speed_->aim(seconds);
+    }
+}
+
+Film PathRenderer::film() const {
+    return in_context("reading the film", [&] { return read_film(*gpu_, *film_); });
+}
+
+std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options) {
+    return std::make_unique<PathRenderer>(packed, options);
+}
+
+std::shared_ptr<Gpu> open_device(const VulkanOptions& options) {
+    return open_gpu(GpuRequest{.device = options.device, .validation = validation_wanted(options.validation)});
+}
+
+std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed,
+                                               const VulkanOptions& options) {
+    return std::make_unique<PathRenderer>(std::move(gpu), packed, with_options({}, options));
+}
+
+}  // namespace diptych

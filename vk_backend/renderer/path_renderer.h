@@ -1,0 +1,146 @@
+// The Renderer over one device; made by make_vulkan_renderer, and directly by tests.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "../../shaders/dispatch.h"
+#include "structures/acceleration.h"
+#include "device/bindings.h"
+#include "memory/device_film.h"
+#include "structures/emitter_structure.h"
+#include "memory/film_memory.h"
+#include "passes/path_waves.h"
+#include "device/pipeline.h"
+#include "device/pipeline_cache.h"
+#include "passes/resampling_passes.h"
+#include "memory/scene_memory.h"
+#include "renderer/slices.h"
+#include "device/timed_queue.h"
+#include "renderer/vulkan_renderer.h"
+
+namespace diptych {
+
+/// Whether instances that stand still are gathered (instance_groups.h): on a GPU, where that pays (decision 0010), or
+/// for a test anywhere.
+enum class Grouping { nowhere, on_gpus, anywhere };
+
+/// What tests change.
+struct PathRendererOptions {
+    std::uint64_t slice_budget = 0;  // pixel samples a dispatch, whatever the measured speed
+    Grouping grouping = Grouping::on_gpus;
+};
+
+class PathRenderer final : public Renderer {
+public:
+    PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, const PathRendererOptions& changes = {});
+    PathRenderer(const PackedScene& packed, const VulkanOptions& options, const PathRendererOptions& changes = {});
+
+    std::string backend() const override { return "vulkan"; }
+    std::string device() const override { return gpu_->name; }
+    RendererCosts costs() const override { return costs_; }
+    void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override;
+    void restart(std::uint32_t seed) override;
+    void clear_film() override;
+    void move_to(const PackedScene& moment) override;
+    void reconfigure(const PackedScene& packed) override;
+    double device_seconds() const override { return queue_->seconds(); }
+    std::vector<PassTime> pass_times() const override;
+    void watch_reservoirs(ReservoirHook hook) override { hook_ = std::move(hook); }
+    Film film() const override;
+    TraversalBench bench_traversal(std::uint32_t samples) override;
+    std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery> queries,
+                                           std::optional<std::uint32_t> seed = {}) override;
+    std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery> queries) override;
+
+    const BottomLevels& bottom_levels() const { return bottom_; }
+
+    /// What there is to be seen, for a display pass on the same device; what is added to this picture later shows in it
+    /// too. It stays as it is while the next picture begins.
+    DeviceFilm device_film() const;
+    /// Seconds of device time a dispatch may take from now on: whoever shares the queue waits for two of them at most.
+    void aim_dispatches(double seconds);
+    /// Since the renderer was made.
+    std::size_t pipelines_compiled() const { return pipelines_.size() + compute_pipelines_.size(); }
+
+private:
+    PipelineConstants pipeline_constants(bool record_rays) const;
+    TracePipeline compile(Spirv ray_generation, bool record_rays) const;
+    const TracePipeline& pipeline(Spirv ray_generation);
+    const ComputePipeline& compute_pipeline(Spirv shader);
+    void choose_pipelines();
+    Structures structures() const;
+    void bind();
+    void require_bound() const;
+    void build_structures(const PackedScene& packed);
+    void replace_structures_of(const PackedScene& packed);
+    void replace_film();
+    void count_bytes();
+    void replace_waves();
+    void begin_film();
+    SceneAddresses addresses(const FilmMemory& film) const;
+    void render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
+    void render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
+    std::uint64_t pixel_limit(ResamplingStage stage) const;
+    void record_stage(Recorder& recorder, ResamplingStage stage, const Slice& slice, shared::Dispatch dispatch) const;
+    void show_reservoirs(const ResamplingStep& step);
+    std::uint64_t slice_budget() const;
+    bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
+    bool goes_in_waves() const;
+    void warm_up() const;
+    Slice next_slice(SliceCursor& cursor, const SpeedEstimate& speed) const;
+    void submit_slice(TimedQueue& queue, const WavePipelines& pipelines, const Bindings& bindings, const Slice& slice,
+                      const shared::Dispatch& request = {}, std::size_t label = 0) const;
+    std::vector<shared::PathSummary> summarize(std::span<const shared::PathQuery> queries,
+                                               const shared::RenderConstants& constants);
+    void trace_listed(std::span<const shared::PathQuery> queries, const shared::RenderConstants& constants,
+                      std::uint32_t vertices_per_path, const Buffer& vertices, const Buffer& summaries);
+
+    std::shared_ptr<Gpu> gpu_;
+    shared::RenderConstants constants_;
+    std::uint32_t features_;
+    PathRendererOptions changes_;
+    SceneMemory scene_;
+    BottomLevels bottom_;
+    TopLevel top_;
+    TopLevel previous_top_;  // of the moment before, where PackedScene::keeps_previous
+    EmitterStructure emitters_;
+    std::unique_ptr<Uploader> mover_;  // made at the first move
+    std::vector<std::shared_ptr<FilmMemory>>
+        films_;  // of the present size and layers; one is film_, the others may be looked at
+    std::shared_ptr<FilmMemory> film_;
+    PipelineLayout layout_;
+    std::map<std::tuple<const std::uint32_t*, std::uint32_t, bool>, TracePipeline>
+        pipelines_;  // by ray generation shader, features, groups
+    std::map<std::tuple<const std::uint32_t*, std::uint32_t>, ComputePipeline>
+        compute_pipelines_;  // by shader, features
+    WavePipelines wave_pipelines_;
+    WaveMemory waves_;
+    std::shared_ptr<ResamplingMemory> resampling_;
+    std::map<ResamplingStage, const TracePipeline*> traced_;      // stages that are one pass, with rays
+    std::map<ResamplingStage, const ComputePipeline*> computed_;  // or without
+    CandidatePipelines candidates_;
+    ResamplingSchedule schedule_;
+    ReservoirHook hook_;
+    std::optional<std::uint32_t> reservoir_set_;  // that the last frame left
+    Bindings bindings_;
+    double dispatch_seconds_ = 0.06;
+    SpeedEstimate speed_{dispatch_seconds_};
+    std::unique_ptr<CommandRing> upkeep_;  // what is to happen between pictures
+    std::unique_ptr<TimedQueue> queue_;
+    RendererCosts costs_;
+    std::optional<SpeedEstimate> recording_speed_;  // of record.rgen, once it has been asked for
+};
+
+/// Shaders of shaders/ under a ray generation shader; any-hit shaders only where `alpha`.
+PipelineShaders scene_shaders(Spirv ray_generation, bool alpha);
+
+/// Records the commands of one dispatch.
+void record_dispatch(Recorder& recorder, const TracePipeline& pipeline, const PipelineLayout& layout,
+                     const Bindings& bindings, const shared::Dispatch& dispatch, std::uint32_t width,
+                     std::uint32_t height);
+
+}  // namespace diptych

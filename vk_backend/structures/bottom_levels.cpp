@@ -1,0 +1,280 @@
+#include <algorithm>
+
+#include "structures/acceleration.h"
+#include "device/commands.h"
+#include "memory/upload.h"
+
+namespace diptych {
+namespace {
+
+constexpr std::uint64_t structure_alignment =
+    256;  // of an acceleration structure within its buffer, by the specification
+
+using Usage = vk::BufferUsageFlagBits;
+
+struct StructureBuild {
+    std::vector<vk::AccelerationStructureGeometryKHR> geometries;
+    std::vector<vk::AccelerationStructureBuildRangeInfoKHR> ranges;
+    vk::AccelerationStructureBuildGeometryInfoKHR info;
+    std::uint64_t structure_bytes = 0;
+    std::uint64_t scratch_bytes = 0;
+    std::uint64_t triangles = 0;
+};
+
+vk::AccelerationStructureGeometryKHR describe_geometry(const PackedScene& packed, const SceneMemory& scene,
+                                                       std::uint32_t index) {
+    const shared::Geometry& geometry = packed.geometries[index];
+    const GeometryExtent& extent = packed.geometry_extents[index];
+    vk::AccelerationStructureGeometryTrianglesDataKHR triangles;
+    triangles.vertexFormat = vk::Format::eR32G32B32Sfloat;
+    triangles.vertexData.deviceAddress = scene.positions.address + sizeof(shared::vec3) * geometry.first_vertex;
+    triangles.vertexStride = sizeof(shared::vec3);
+    triangles.maxVertex = std::max(extent.vertex_count, 1U) - 1U;
+    triangles.indexType = vk::IndexType::eUint32;
+    triangles.indexData.deviceAddress = scene.triangles.address + sizeof(shared::uvec3) * geometry.first_triangle;
+    const bool tested = extent.alpha && (packed.features & shared::FEATURE_ALPHA) != 0;
+    vk::AccelerationStructureGeometryKHR described;
+    described.geometryType = vk::GeometryTypeKHR::eTriangles;
+    described.geometry.triangles = triangles;
+    described.flags = tested ? vk::GeometryFlagsKHR{} : vk::GeometryFlagBitsKHR::eOpaque;
+    return described;
+}
+
+/// Adds a mesh's geometries, their vertices transformed by the matrix at the address `transform`.
+void add_mesh(const PackedScene& packed, const SceneMemory& scene, std::size_t mesh, vk::DeviceAddress transform,
+              StructureBuild& build) {
+    const MeshRange& range = packed.meshes[mesh];
+    for (std::uint32_t i = range.first_geometry; i < range.first_geometry + range.geometry_count; ++i) {
+        const std::uint32_t count = packed.geometry_extents[i].triangle_count;
+        build.geometries.push_back(describe_geometry(packed, scene, i));
+        build.geometries.back().geometry.triangles.transformData.deviceAddress = transform;
+        build.ranges.push_back({.primitiveCount = count});
+        build.triangles += count;
+    }
+}
+
+void size_build(const Gpu& gpu, StructureBuild& build) {
+    std::vector<std::uint32_t> counts;
+    for (const vk::AccelerationStructureBuildRangeInfoKHR& range : build.ranges) {
+        counts.push_back(range.primitiveCount);
+    }
+    build.info.type = vk::AccelerationStructureTypeKHR::eBottomLevel;
+    build.info.flags = vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace |
+                       vk::BuildAccelerationStructureFlagBitsKHR::eAllowCompaction;
+    build.info.mode = vk::BuildAccelerationStructureModeKHR::eBuild;
+    build.info.setGeometries(build.geometries);
+    if (build.triangles > 0) {
+        const vk::AccelerationStructureBuildSizesInfoKHR sizes = gpu.device.getAccelerationStructureBuildSizesKHR(
+            vk::AccelerationStructureBuildTypeKHR::eDevice, build.info, counts);
+        build.structure_bytes = align_up(sizes.accelerationStructureSize, structure_alignment);
+        build.scratch_bytes = align_up(sizes.buildScratchSize, gpu.scratch_alignment);
+    }
+}
+
+/// Meshes that no instance needs by itself: all of theirs are grouped.
+std::vector<bool> meshes_grouped_away(const PackedScene& packed, const InstanceGroups& groups) {
+    std::vector<bool> away(packed.meshes.size(), false);
+    for (const bool grouped : {true, false}) {
+        for (std::size_t i = 0; i < packed.instances.size(); ++i) {
+            if (is_grouped(groups, i) == grouped) {
+                away[packed.instance_meshes[i]] = grouped;
+            }
+        }
+    }
+    return away;
+}
+
+/// Divides by a mesh's unit.
+vk::TransformMatrixKHR into_unit(float unit) {
+    vk::TransformMatrixKHR transform;
+    for (int row = 0; row < 3; ++row) {
+        transform.matrix[row] = {};
+        transform.matrix[row][row] = 1 / unit;
+    }
+    return transform;
+}
+
+/// What vertices are transformed by when they are built: one matrix a mesh, into its unit, then those of all grouped
+/// instances in the order of the groups.
+Buffer upload_transforms(const Gpu& gpu, const PackedScene& packed, const InstanceGroups& groups,
+                         const std::vector<float>& units) {
+    std::vector<vk::TransformMatrixKHR> transforms;
+    std::transform(units.begin(), units.end(), std::back_inserter(transforms), into_unit);
+    for (const InstanceGroup& group : groups.groups) {
+        for (const std::uint32_t instance : group.instances) {
+            transforms.push_back(transform_of(packed.instances[instance]));
+        }
+    }
+    Uploader uploader(gpu, std::uint64_t{4} << 20U);
+    Buffer buffer =
+        upload_array(gpu, uploader, "transforms of built vertices", std::span<const vk::TransformMatrixKHR>(transforms),
+                     Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress);
+    uploader.finish();
+    return buffer;
+}
+
+Buffer structure_buffer(const Gpu& gpu, const char* what, std::uint64_t bytes) {
+    return make_buffer(gpu, what, bytes, Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress,
+                       MemoryKind::device);
+}
+
+vk::raii::AccelerationStructureKHR place_structure(const Gpu& gpu, const Buffer& storage, std::uint64_t offset,
+                                                   std::uint64_t bytes) {
+    return gpu.device.createAccelerationStructureKHR({.buffer = *storage.handle,
+                                                      .offset = offset,
+                                                      .size = bytes,
+                                                      .type = vk::AccelerationStructureTypeKHR::eBottomLevel});
+}
+
+// Builds of one batch, in a buffer that lives until they have been compacted.
+struct Batch {
+    Buffer storage;
+    std::vector<vk::raii::AccelerationStructureKHR> structures;
+    std::vector<std::uint64_t> compacted_bytes;
+};
+
+Batch build_batch(const Gpu& gpu, std::vector<StructureBuild>& builds) {
+    std::uint64_t structure_bytes = 0;
+    std::uint64_t scratch_bytes = 0;
+    for (const StructureBuild& build : builds) {
+        structure_bytes += build.structure_bytes;
+        scratch_bytes += build.scratch_bytes;
+    }
+    Batch batch;
+    batch.storage = structure_buffer(gpu, "acceleration structures", structure_bytes);
+    const Buffer scratch = make_buffer(gpu, "building acceleration structures", scratch_bytes + gpu.scratch_alignment,
+                                       Usage::eStorageBuffer | Usage::eShaderDeviceAddress, MemoryKind::device);
+    vk::DeviceAddress scratch_address = align_up(scratch.address, gpu.scratch_alignment);
+    std::uint64_t offset = 0;
+    std::vector<vk::AccelerationStructureBuildGeometryInfoKHR> infos;
+    std::vector<const vk::AccelerationStructureBuildRangeInfoKHR*> ranges;
+    std::vector<vk::AccelerationStructureKHR> handles;
+    for (StructureBuild& build : builds) {
+        batch.structures.push_back(place_structure(gpu, batch.storage, offset, build.structure_bytes));
+        build.info.setGeometries(build.geometries);
+        build.info.dstAccelerationStructure = *batch.structures.back();
+        build.info.scratchData.deviceAddress = scratch_address;
+        offset += build.structure_bytes;
+        scratch_address += build.scratch_bytes;
+        infos.push_back(build.info);
+        ranges.push_back(build.ranges.data());
+        handles.push_back(*batch.structures.back());
+    }
+    const auto count = static_cast<std::uint32_t>(handles.size());
+    const vk::raii::QueryPool queries = gpu.device.createQueryPool(
+        {.queryType = vk::QueryType::eAccelerationStructureCompactedSizeKHR, .queryCount = count});
+    run_commands(gpu, [&](Recorder& recorder) {
+        recorder->resetQueryPool(*queries, 0, count);
+        recorder.use(uses_of_build);
+        recorder->buildAccelerationStructuresKHR(infos, ranges);
+        recorder.use({{Resource::structures, Unit::build, Effect::read}});
+        recorder->writeAccelerationStructuresPropertiesKHR(
+            handles, vk::QueryType::eAccelerationStructureCompactedSizeKHR, *queries, 0);
+    });
+    batch.compacted_bytes =
+        queries
+            .getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                       vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
+            .second;
+    return batch;
+}
+
+void compact_batch(const Gpu& gpu, const Batch& batch, const std::vector<std::size_t>& indices, BottomLevels& levels) {
+    std::uint64_t total = 0;
+    for (const std::uint64_t bytes : batch.compacted_bytes) {
+        total += align_up(bytes, structure_alignment);
+    }
+    levels.storage.push_back(structure_buffer(gpu, "compacted acceleration structures", total));
+    levels.bytes += total;
+    levels.built_bytes += batch.storage.size;
+    std::uint64_t offset = 0;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const std::uint64_t bytes = align_up(batch.compacted_bytes[i], structure_alignment);
+        levels.structures[indices[i]] = place_structure(gpu, levels.storage.back(), offset, bytes);
+        offset += bytes;
+    }
+    run_commands(gpu, [&](Recorder& recorder) {
+        for (std::size_t i = 0; i < indices.size(); ++i) {  // each to a place of its own
+            recorder->copyAccelerationStructureKHR({.src = *batch.structures[i],
+                                                    .dst = *levels.structures[indices[i]],
+                                                    .mode = vk::CopyAccelerationStructureModeKHR::eCompact});
+        }
+    });
+    for (const std::size_t index : indices) {
+        levels.addresses[index] =
+            gpu.device.getAccelerationStructureAddressKHR({.accelerationStructure = *levels.structures[index]});
+    }
+}
+
+}  // namespace
+
+BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene,
+                                 const InstanceGroups& groups, const BuildLimits& limits) {
+    const std::size_t count = packed.meshes.size() + groups.groups.size();
+    BottomLevels levels;
+    for (std::size_t i = 0; i < count; ++i) {
+        levels.structures.emplace_back(nullptr);
+    }
+    levels.addresses.resize(count, 0);
+
+    std::vector<StructureBuild> builds;
+    std::vector<std::size_t> indices;
+    std::uint64_t structure_bytes = 0;
+    std::uint64_t scratch_bytes = 0;
+    const auto flush = [&] {
+        if (!builds.empty()) {
+            const Batch batch = build_batch(gpu, builds);
+            compact_batch(gpu, batch, indices, levels);
+        }
+        builds.clear();
+        indices.clear();
+        structure_bytes = 0;
+        scratch_bytes = 0;
+    };
+    const auto add = [&](StructureBuild&& build, std::size_t index) {
+        size_build(gpu, build);
+        if (build.triangles == 0) {
+            return;
+        }
+        if (structure_bytes + build.structure_bytes > limits.structure_bytes ||
+            scratch_bytes + build.scratch_bytes > limits.scratch_bytes || builds.size() >= limits.meshes) {
+            flush();
+        }
+        structure_bytes += build.structure_bytes;
+        scratch_bytes += build.scratch_bytes;
+        builds.push_back(std::move(build));
+        indices.push_back(index);
+    };
+    levels.units = mesh_units(packed, groups);
+    const Buffer transforms = upload_transforms(gpu, packed, groups, levels.units);
+    vk::DeviceAddress transform = transforms.address;
+    const std::vector<bool> away = meshes_grouped_away(packed, groups);
+    for (std::size_t i = 0; i < packed.meshes.size(); ++i, transform += sizeof(vk::TransformMatrixKHR)) {
+        if (!away[i]) {
+            StructureBuild build;
+            add_mesh(packed, scene, i, transform, build);
+            add(std::move(build), i);
+        }
+    }
+    for (std::size_t i = 0; i < groups.groups.size(); ++i) {
+        StructureBuild build;
+        for (const std::uint32_t instance : groups.groups[i].instances) {
+            add_mesh(packed, scene, packed.instance_meshes[instance], transform, build);
+            transform += sizeof(vk::TransformMatrixKHR);
+        }
+        add(std::move(build), packed.meshes.size() + i);
+    }
+    flush();
+    if (!groups.groups.empty()) {
+        levels.groups = groups;
+        levels.standing = packed.instances;
+        Uploader uploader(gpu, std::uint64_t{4} << 20U);
+        levels.grouped_geometries =
+            upload_array(gpu, uploader, "geometries of grouped instances", std::span(groups.geometries),
+                         Usage::eStorageBuffer | Usage::eShaderDeviceAddress);
+        uploader.finish();
+    }
+    return levels;
+}
+
+}  // namespace diptych
