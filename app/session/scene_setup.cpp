@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <optional>
 #include <sstream>
 
@@ -17,6 +16,7 @@
 #include "scene/default_camera.h"
 #include "scene/environment_load.h"
 #include "gltf/import.h"
+#include "render/frames.h"
 #include "scene/own_light.h"
 
 namespace diptych::app {
@@ -146,21 +146,15 @@ Scene load_requested(RenderRequest& request) {
     return scene;
 }
 
-void place_lights(const Scene& loaded, const RenderRequest& request, Scene& scene) {
-    const bool turned = request.environment_scale != 1 || request.environment_rotation != 0;
-    if (loaded.environment.kind == Environment::Kind::none && turned) {
+namespace {
+
+void place_lights(const RenderRequest& request, Scene& scene) {
+    const Moment moment = requested_lights(request);
+    if (scene.environment.kind == Environment::Kind::none && changes_environment(moment)) {
         throw Error(fmt::format(
-            "{}: --env-scale and --env-rotate want an environment, and the scene has none: give --env", loaded.name));
+            "{}: --env-scale and --env-rotate want an environment, and the scene has none: give --env", scene.name));
     }
-    const glm::vec3 scale = loaded.environment.scale * static_cast<float>(request.environment_scale);
-    const double rotation = loaded.environment.rotation + request.environment_rotation * std::numbers::pi / 180;
-    const std::size_t lights = loaded.lights.size();
-    scene.environment.scale = scale;
-    scene.environment.rotation = rotation;
-    scene.lights.resize(lights);
-    if (request.sun) {
-        scene.lights.push_back(sun_light(*request.sun));
-    }
+    put_lights(scene, moment, scene);
 }
 
 void place_camera(const RenderRequest& request, Scene& scene) {
@@ -173,10 +167,12 @@ void place_camera(const RenderRequest& request, Scene& scene) {
     camera.focus_distance = request.focus_distance.value_or(camera.focus_distance);
 }
 
+}  // namespace
+
 Scene prepare_scene(RenderArguments& arguments) {
     RenderRequest& request = arguments.request;
     Scene scene = load_requested(request);
-    place_lights(scene, request, scene);
+    place_lights(request, scene);
     place_camera(request, scene);
     resolve_size(arguments, scene.cameras[static_cast<std::size_t>(request.settings.camera)]);
     report_warnings(scene.warnings);

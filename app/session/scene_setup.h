@@ -19,9 +19,4 @@ void report_clips(const Scene& scene, const RenderRequest& request);
 /// the request's. Says nothing: warnings are in the scene. Throws Error.
 Scene load_requested(RenderRequest& request);
 
-/// The rest, but for the size: what of the request another frame may change. `scene` is `loaded` or a copy, at any
-/// moment. Throws Error.
-void place_lights(const Scene& loaded, const RenderRequest& request, Scene& scene);
-void place_camera(const RenderRequest& request, Scene& scene);
-
 }  // namespace diptych::app

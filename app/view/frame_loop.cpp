@@ -155,7 +155,7 @@ void FrameLoop::step(double now) {
 }
 
 void FrameLoop::post(double now) {
-    const bool changed = !posted_ || invalidation(*posted_, state_.rendered) != Invalidation::nothing;
+    const bool changed = !posted_ || invalidation(*posted_, state_.rendered) != Change::nothing;
     const bool held = state_.interacting || state_.animation.playing;
     const bool soon = now - last_single_ < burst_seconds;
     if (changed && posted_ && !held) {

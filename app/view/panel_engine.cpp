@@ -4,11 +4,9 @@
 #include <utility>
 
 #include "error.h"
-#include "session/pack_requested.h"
 #include "render/seeds.h"
 #include "console/report.h"
-#include "pose/pose.h"
-#include "session/scene_setup.h"
+#include "session/open_session.h"
 #include "view/film_figures.h"
 #include "view/panel_device.h"
 #include "view/view_request.h"
@@ -28,22 +26,6 @@ double blended(double known, double measured) {
 }
 
 }  // namespace
-
-namespace {
-
-void set_camera(const RenderedState& state, Scene& scene) {
-    scene.cameras.at(static_cast<std::size_t>(state.request.settings.camera)) = state.camera;
-}
-
-}  // namespace
-
-void put_scene(const Scene& loaded, const RenderedState& state, Scene& scene) {
-    if (moves(loaded)) {
-        pose_scene(scene, state.time);
-    }
-    place_lights(loaded, state.request, scene);
-    set_camera(state, scene);
-}
 
 RenderSettings panel_settings(const RenderSettings& settings, std::uint32_t seed_offset, int divisor) {
     RenderSettings of_panel = settings;
@@ -81,7 +63,7 @@ void PanelEngine::guarded(const Work& work) {
 }
 
 void PanelEngine::recover(RendererFactory factory) {
-    renderer_.reset();
+    session_.reset();
     applied_.reset();
     shot_.device_film.reset();
     shot_.device_lost = false;
@@ -98,19 +80,19 @@ void PanelEngine::apply(const ViewJob& job) {
     }
     guarded([&] {
         const Clock::time_point begin = Clock::now();
-        Invalidation level = applied_ && renderer_ ? invalidation(*applied_, job.state) : Invalidation::scene;
+        Change level = applied_ && session_ ? invalidation(*applied_, job.state) : Change::scene;
         const RenderSettings& wanted = job.state.request.settings;
-        if (level == Invalidation::scene) {
+        if (level == Change::scene) {
             speed_ = {};
         }
-        relearns_ = relearns_ || level == Invalidation::settings;
+        relearns_ = relearns_ || level == Change::settings;
         const FrameBudget budget =
             frame_budget(speed_, wanted.width, wanted.height, job.frame_seconds, job.moving, divisor_);
         if (budget.divisor != divisor_) {
-            level = std::max(level, Invalidation::settings);
+            level = std::max(level, Change::settings);
         }
         if (spoiled_) {
-            level = std::max(level, Invalidation::picture);
+            level = std::max(level, Change::picture);
         }
         job_ = job;
         resumes_ = begin;
@@ -118,130 +100,65 @@ void PanelEngine::apply(const ViewJob& job) {
         shot_.error.clear();
         applied_.reset();  // until it is done
         switch (level) {
-        case Invalidation::nothing:
+        case Change::nothing:
             break;
-        case Invalidation::picture:
-            settle();
-            renderer_->restart(settings().seed);
-            begin_picture(false);
+        case Change::picture:
+            session_->restart(settings().seed);
+            begin_picture();
             break;
-        case Invalidation::view:
-            set_camera(job_->state, scene_);
-            show(false);
+        case Change::view:
+        case Change::moment:
+            session_->show(moment_of(job_->state),
+                           session_->chained() ? std::nullopt : std::optional(settings().seed));
+            begin_picture();
             break;
-        case Invalidation::moment:
-            put_scene(*job_->scene, job_->state, scene_);
-            show(true);
+        case Change::settings:
+            session_->set(settings(), moment_of(job_->state));
+            begin_picture();
             break;
-        case Invalidation::settings:
-            change_settings();
-            break;
-        case Invalidation::scene:
+        case Change::scene:
             open_scene();
             break;
         }
         applied_ = job.state;
         spoiled_ = false;
-        if (level == Invalidation::view || level == Invalidation::moment) {
+        if (level == Change::view || level == Change::moment) {
             speed_.overhead_seconds = blended(speed_.overhead_seconds, between(begin, Clock::now()));
         }
-        aim_dispatches(*renderer_, job.frame_seconds / 2);
-        const bool knows_picture = level == Invalidation::nothing && shot_.figures.version == shot_.version;
+        aim_dispatches(session_->renderer(), job.frame_seconds / 2);
+        const bool knows_picture = level == Change::nothing && shot_.figures.version == shot_.version;
         shot_.version = job.version;
         shot_.state = job.state;
         shot_.busy.clear();
         if (knows_picture) {
             shot_.figures.version = job.version;
         }
-        if (level == Invalidation::nothing && samples_ > 0) {
+        if (level == Change::nothing && samples_ > 0) {
             publish(false);
         }
     });
 }
 
-/// The scene at rest first, so that origin and radius depend on no moment.
-void PanelEngine::pack_anew(Scene& scene) {
-    const Scene& loaded = *job_->scene;
-    place_lights(loaded, job_->state.request, scene);
-    set_camera(job_->state, scene);
-    auto packed = std::make_unique<PackedScene>(pack_requested(scene, settings()));
-    if (renderer_) {
-        // Settings change neither, and a renderer may refer to those that it was made from.
-        packed->positions.swap(packed_->positions);
-        packed->triangles.swap(packed_->triangles);
-    }
-    if (moves(loaded)) {
-        put_scene(loaded, job_->state, scene);
-        pack_moment(scene, settings(), *packed);
-        pack_moment(scene, settings(), *packed);  // once more: the moment before is this one
-    }
-    if (renderer_) {
-        renderer_->reconfigure(*packed);
-    }
-    packed_ = std::move(packed);
-}
-
 void PanelEngine::open_scene() {
-    say_busy("packing the scene");
-    renderer_.reset();
-    packed_.reset();
+    session_.reset();
     shot_.device_film.reset();
-    scene_ = *job_->scene;
-    pack_anew(scene_);
-    say_busy("building acceleration structures and pipelines");
-    renderer_ = factory_(*packed_);
-    shot_.backend = renderer_->backend();
-    shot_.device = renderer_->device();
-    begin_picture(false);
+    scene_ = job_->scene;
+    SessionHooks hooks = reporting_hooks();
+    hooks.busy = [this](const char* what) { say_busy(what); };
+    session_.emplace(
+        *scene_, settings(),
+        [this](const Scene&, const PackedScene& packed, const RenderSettings&) { return factory_(packed); },
+        moment_of(job_->state), std::move(hooks));
+    shot_.backend = session_->renderer().backend();
+    shot_.device = session_->renderer().device();
+    begin_picture();
 }
 
-void PanelEngine::change_settings() {
-    put_scene(*job_->scene, job_->state, scene_);
-    if (repack_settings(scene_, settings(), *packed_)) {
-        renderer_->reconfigure(*packed_);
-    } else {
-        say_busy("packing the scene");
-        if (moves(scene_)) {
-            scene_ = *job_->scene;
-        }
-        pack_anew(scene_);
-    }
-    begin_picture(false);
-}
-
-/// Moves the renderer to the scene's moment, and begins a picture of it.
-void PanelEngine::show(bool whole_moment) {
-    if (whole_moment) {
-        pack_moment(scene_, settings(), *packed_);
-    } else {
-        pack_view(scene_, settings(), *packed_);
-    }
-    renderer_->move_to(*packed_);
-    const bool chained = settings().moves;
-    if (chained) {
-        renderer_->clear_film();
-    } else {
-        renderer_->restart(settings().seed);
-    }
-    begin_picture(chained);
-    unsettled_ = chained;
-}
-
-/// From here on samples look back to this same moment.
-void PanelEngine::settle() {
-    if (std::exchange(unsettled_, false)) {
-        pack_view(scene_, settings(), *packed_);  // nothing has moved since
-        renderer_->move_to(*packed_);
-    }
-}
-
-void PanelEngine::begin_picture(bool keeps_chain) {
-    first_ = keeps_chain ? first_ + samples_ : 0;
+void PanelEngine::begin_picture() {
     samples_ = 0;
-    unsettled_ = false;
     looked_rays_ = 0;
     looked_at_ = Clock::now();
-    passes_before_ = renderer_->pass_times();
+    passes_before_ = session_->renderer().pass_times();
     passes_from_ = 0;
 }
 
@@ -251,15 +168,12 @@ void PanelEngine::advance(const std::atomic<bool>& cancel) {
         const FrameBudget budget =
             frame_budget(speed_, wanted.width, wanted.height, job_->frame_seconds, job_->moving, divisor_);
         const bool first = samples_ == 0;
-        if (!first) {
-            settle();
-        }
         // At rest the first sample is shown at once. What moves is shown once a frame, by as many as fit; of a chain
         // only the first looks back to the frame before.
-        const bool one = first && (!job_->moving || unsettled_);
+        const bool one = first && (!job_->moving || session_->looks_back());
         const std::uint32_t count = one ? 1 : std::min(budget.samples, samples_left());
         const Clock::time_point begin = Clock::now();
-        renderer_->render(first_ + samples_, count, cancel);
+        session_->render(samples_, count, cancel);
         if (cancel) {
             spoiled_ = true;
             return;
@@ -285,14 +199,14 @@ void PanelEngine::learn(std::uint32_t samples, double seconds) {
 void PanelEngine::publish(bool first) {
     const Clock::time_point now = Clock::now();
     const RenderSettings of_film = settings();
-    shot_.device_film = device_film_of(*renderer_);
+    shot_.device_film = device_film_of(session_->renderer());
     shot_.width = of_film.width;
     shot_.height = of_film.height;
     shot_.divisor = divisor_;
     shot_.spp = samples_;
     shot_.correlated = of_film.integrator == Integrator::restir;
     shot_.samples_per_second = speed_.samples_per_second;
-    shot_.costs = renderer_->costs();
+    shot_.costs = session_->renderer().costs();
     // A film on the device is shown from there, and no motion waits for a copy of it.
     if (shot_.device_film ? !job_->moving && device_looks_.due(now) : first || host_films_.due(now)) {
         look();
@@ -302,7 +216,7 @@ void PanelEngine::publish(bool first) {
 
 void PanelEngine::look() {
     const Clock::time_point begin = Clock::now();
-    shot_.film = std::make_shared<const Film>(renderer_->film());
+    shot_.film = std::make_shared<const Film>(session_->renderer().film());
     host_films_.spent(begin, Clock::now());
     if (shot_.device_film || looks_.due(begin)) {
         shot_.figures = film_figures(*shot_.film, job_->version, samples_);
@@ -310,13 +224,13 @@ void PanelEngine::look() {
         shot_.rays_per_second = static_cast<double>(shot_.figures.rays - looked_rays_) / std::max(seconds, 1e-9);
         looked_rays_ = shot_.figures.rays;
         looked_at_ = begin;
-        shot_.passes = renderer_->pass_times();
+        shot_.passes = session_->renderer().pass_times();
         for (std::size_t i = 0; i < shot_.passes.size(); ++i) {
             const double before = i < passes_before_.size() ? passes_before_[i].seconds : 0;
             const double taken = std::exchange(shot_.passes[i].seconds, 0) - before;
             shot_.passes[i].seconds = taken / std::max(samples_ - passes_from_, 1U);
         }
-        passes_before_ = renderer_->pass_times();
+        passes_before_ = session_->renderer().pass_times();
         passes_from_ = samples_;
         looks_.spent(begin, Clock::now());
     }
@@ -329,7 +243,7 @@ void PanelEngine::say_busy(const char* what) {
 }
 
 RecordedPath PanelEngine::record_path(shared::PathQuery query, std::uint32_t seed) {
-    if (!renderer_ || !applied_) {
+    if (!session_ || !applied_) {
         throw Error("no panel is there to replay on");
     }
     const RenderSettings of_film = settings();
@@ -339,11 +253,11 @@ RecordedPath PanelEngine::record_path(shared::PathQuery query, std::uint32_t see
     const auto divisor = static_cast<std::uint32_t>(divisor_);
     query.pixel = {std::min(query.pixel.x / divisor, static_cast<std::uint32_t>(of_film.width - 1)),
                    std::min(query.pixel.y / divisor, static_cast<std::uint32_t>(of_film.height - 1))};
-    RecordedPath path = renderer_->record_paths({&query, 1}, seed).front();
+    RecordedPath path = session_->renderer().record_paths({&query, 1}, seed).front();
     // Panels may have been packed about different origins, where the camera stood then.
     for (shared::PathVertexRecord& vertex : path.vertices) {
         if (vertex.instance != shared::NONE) {
-            vertex.position += glm::vec3(packed_->origin);
+            vertex.position += glm::vec3(session_->packed().origin);
         }
     }
     return path;
@@ -354,7 +268,7 @@ KeptFilm PanelEngine::film() {
         throw Error("there is no picture yet");
     }
     KeptFilm kept;
-    kept.film = renderer_->film();
+    kept.film = session_->renderer().film();
     kept.request = view_request(job_->state, *job_->scene);
     kept.request.backend = shot_.backend;
     kept.camera = job_->state.camera;

@@ -7,16 +7,12 @@
 #include <optional>
 #include <string>
 
-#include "pack/packed_scene.h"
+#include "render/session.h"
 #include "view/frame_budget.h"
 #include "view/invalidation.h"
 #include "view/panel_worker.h"
 
 namespace diptych::app {
-
-/// The scene as the state has it: its moment, its lights, its camera. `scene` is a copy of `loaded`, at any moment.
-/// Throws Error.
-void put_scene(const Scene& loaded, const RenderedState& state, Scene& scene);
 
 /// What a panel renders the state with: the preview's size, its own seed, and what chains of frames need and cannot
 /// have.
@@ -36,10 +32,10 @@ public:
     void apply(const ViewJob& job);
 
     bool wants_samples() const {
-        return job_ && !job_->paused && renderer_ && shot_.error.empty() && samples_left() > 0;
+        return job_ && !job_->paused && session_ && shot_.error.empty() && samples_left() > 0;
     }
 
-    bool has_picture() const { return renderer_ && applied_ && samples_ > 0; }
+    bool has_picture() const { return session_ && applied_ && samples_ > 0; }
 
     /// Whether the job is one of many that follow one another, and has shown nothing yet.
     bool owes_first_sample() const { return wants_samples() && job_->moving && samples_ == 0; }
@@ -70,16 +66,12 @@ private:
     template <class Work>
     void guarded(const Work& work);
     void open_scene();
-    void change_settings();
-    void pack_anew(Scene& scene);
-    void show(bool whole_moment);
-    void settle();
-    void begin_picture(bool keeps_chain);
+    void begin_picture();
     void learn(std::uint32_t samples, double seconds);
     void publish(bool first);
     void look();
     void say_busy(const char* what);
-    std::uint32_t samples_left() const { return ~0U - first_ - samples_; }  // that still have an index
+    std::uint32_t samples_left() const { return ~0U - (session_ ? session_->first_sample() : 0) - samples_; }  // that still have an index
     RenderSettings settings() const { return panel_settings(job_->state.request.settings, seed_offset_, divisor_); }
 
     RendererFactory factory_;
@@ -87,16 +79,13 @@ private:
     Publish publish_;
     std::optional<ViewJob> job_;
     std::optional<RenderedState> applied_;  // what the renderer shows; none where it shows nothing sound
-    Scene scene_;                           // the job's, posed
-    std::unique_ptr<PackedScene> packed_;
-    std::unique_ptr<Renderer> renderer_;
+    std::shared_ptr<const Scene> scene_;    // the session's
+    std::optional<Session> session_;
     PanelShot shot_;
     PanelSpeed speed_;
     bool relearns_ = false;  // the speed is that of other settings
     int divisor_ = 1;
-    std::uint32_t first_ = 0;    // index of the picture's first sample
     std::uint32_t samples_ = 0;  // of the picture
-    bool unsettled_ = false;     // its next samples are to look back to this same moment
     Clock::time_point resumes_{};
     bool spoiled_ = false;             // some pixels have samples of a chunk that was cut short
     Pace host_films_{1.0 / 30, 0.25};  // of renderers without a film on a device

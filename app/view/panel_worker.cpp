@@ -26,7 +26,7 @@ void PanelWorker::post(ViewJob job) {
     {
         const std::lock_guard lock(mutex_);
         // A job of the same picture lets what is being added to it come to its end.
-        const bool other = !taken_ || invalidation(*taken_, job.state) != Invalidation::nothing;
+        const bool other = !taken_ || invalidation(*taken_, job.state) != Change::nothing;
         waiting_ = std::move(job);
         cancel_ = cancel_ || (other && may_cancel_);
     }

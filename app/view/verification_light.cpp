@@ -69,7 +69,7 @@ void ErrorHistory::add(const PanelShot& shot, double now) {
     const FilmFigures& figures = shot.figures;
     if (figures.version != version_) {
         const bool goes_on = !points_.empty() && figures.spp >= points_.back().spp && figures.version == shot.version &&
-                             figures.width == width_ && invalidation(state_, shot.state) == Invalidation::nothing;
+                             figures.width == width_ && invalidation(state_, shot.state) == Change::nothing;
         if (!goes_on) {
             points_.clear();
             begin_ = now;

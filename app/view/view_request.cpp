@@ -3,8 +3,16 @@
 #include <fmt/format.h>
 
 #include "pose/pose.h"
+#include "render/frames.h"
 
 namespace diptych::app {
+
+Moment moment_of(const RenderedState& state) {
+    Moment moment = requested_lights(state.request);
+    moment.seconds = state.time;
+    moment.camera = state.camera;
+    return moment;
+}
 
 RenderRequest view_request(const RenderedState& state, const Scene& loaded) {
     RenderRequest request = state.request;

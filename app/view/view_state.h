@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "image/tonemap_image.h"
+#include "render/moment.h"
 #include "render/request.h"
 #include "scene/scene.h"
 
@@ -18,6 +19,9 @@ struct RenderedState {
     Camera camera;            // seen through, lens and field of view included; world space of the file
     double time = 0;          // seconds of the scene's animations; a scene without any ignores it
 };
+
+/// The scene as the state has it, its camera included.
+Moment moment_of(const RenderedState& state);
 
 enum class ShownPanel { vulkan, cpu, split, difference };
 enum class ShownLayer {

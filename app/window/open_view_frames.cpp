@@ -83,7 +83,7 @@ void OpenView::draw_widgets(double passed) {
     imgui_.begin_frame();
     const RenderedState before = state().rendered;
     draw_interface(imgui_.theme(), facts(), state(), interface_, replay_);
-    const bool changed = invalidation(before, state().rendered) != Invalidation::nothing;
+    const bool changed = invalidation(before, state().rendered) != Change::nothing;
     settings_held_ = ImGui::IsAnyItemActive() && (settings_held_ || changed);
     move_camera(passed);
     ImGui::Render();

@@ -39,7 +39,7 @@ struct Judged {
         return out;
     }
 
-    std::unique_ptr<RandomSide> side(const Renderers::Make& make, Integrator integrator,
+    std::unique_ptr<RandomSide> side(const MakeRenderer& make, Integrator integrator,
                                      const std::vector<std::uint32_t>& frames, std::uint32_t seed) const {
         RenderSettings settings = random.settings;
         settings.integrator = integrator;

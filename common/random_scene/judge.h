@@ -9,19 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "pack/packed_scene.h"
 #include "random_scene/random_scene.h"
-#include "render/renderer.h"
+#include "render/session.h"
 #include "stats/bias_verdict.h"
 
 namespace diptych {
 
-/// Renderers by name, from a scene and its pack, which outlive them. An empty function leaves that renderer out.
+/// Renderers by name. An empty function leaves that renderer out.
 struct Renderers {
-    using Make = std::function<std::unique_ptr<Renderer>(const Scene&, const PackedScene&, const RenderSettings&)>;
-    Make cpu;
-    Make oracle;  // the CPU is compared with it, or with its own `path`, by seeds of their own
-    Make vulkan;  // compared with the CPU, by common seeds
+    MakeRenderer cpu;
+    MakeRenderer oracle;  // the CPU is compared with it, or with its own `path`, by seeds of their own
+    MakeRenderer vulkan;  // compared with the CPU, by common seeds
 };
 
 struct JudgeOptions {

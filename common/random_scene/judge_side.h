@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "pack/packed_scene.h"
 #include "random_scene/judge.h"
 #include "render/film_tiles.h"
 
@@ -12,9 +11,9 @@ namespace diptych {
 
 class RandomSide {
 public:
-    /// `read` is the random scene as its file says it. Judges `frames`, in rising order; none: the scene at rest. Seeds
+    /// `read` is the random scene as its file says it, and must live as long. Judges `frames`, in rising order; none: the scene at rest. Seeds
     /// begin with `first_seed`, one for each run and chain or frame.
-    RandomSide(const RandomScene& random, const Scene& read, const Renderers::Make& make,
+    RandomSide(const RandomScene& random, const Scene& read, const MakeRenderer& make,
                const RenderSettings& settings, std::vector<std::uint32_t> frames, std::uint32_t runs,
                std::uint32_t first_seed);
 
@@ -28,18 +27,13 @@ public:
     std::uint64_t nonfinite() const { return nonfinite_; }
 
 private:
-    void show(std::uint32_t frame);
     void render_still(std::size_t place, std::uint32_t spp);
     void play_chain(std::size_t run, std::uint32_t chain);
     void keep(std::size_t place, std::size_t run, std::uint32_t done, std::uint32_t samples);
 
-    Scene scene_;
-    RenderSettings settings_;
     std::vector<std::uint32_t> frames_;
     std::uint32_t first_seed_;
-    PackedScene packed_;
-    std::unique_ptr<Renderer> renderer_;
-    bool chained_ = false;
+    std::unique_ptr<Session> session_;
     std::vector<std::vector<RunMeans>> runs_;
     std::uint32_t spp_ = 0;
     std::uint64_t nonfinite_ = 0;

@@ -129,11 +129,12 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
         if (batch == 0) {
             return result;
         }
-        if (result.spp == 1 && hooks.after_first) {
-            hooks.after_first();
-        }
         const double begin = now();
-        renderer.render(target.first + result.spp, batch, cancel);
+        if (hooks.render) {
+            hooks.render(target.first + result.spp, batch, cancel);
+        } else {
+            renderer.render(target.first + result.spp, batch, cancel);
+        }
         last_seconds = now() - begin;
         result.seconds += last_seconds;
         if (cancel) {
@@ -160,6 +161,14 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
     result.spp = samples_of_every_pixel(renderer.film()) - samples_of_every_pixel(before);
     result.interrupted = target.spp == 0 || result.spp < target.spp;
     return result;
+}
+
+ProgressiveResult render_progressively(Session& session, const ProgressiveTarget& target,
+                                       const std::atomic<bool>& cancel, ProgressiveHooks hooks) {
+    hooks.render = [&session](std::uint32_t first, std::uint32_t count, const std::atomic<bool>& stop) {
+        session.render(first, count, stop);
+    };
+    return render_progressively(session.renderer(), target, cancel, hooks);
 }
 
 }  // namespace diptych

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "render/renderer.h"
+#include "render/session.h"
 
 namespace diptych {
 
@@ -33,7 +34,8 @@ struct Progress {
 struct ProgressiveHooks {
     std::function<void(const Progress&)> progress;  // after every batch
     std::function<void(const Film&)> film;          // what has grown, at every look
-    std::function<void()> after_first;              // sample, where another follows
+    // Takes the samples; the renderer's own by default.
+    std::function<void(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel)> render;
     std::function<double()> now;                    // seconds, for tests; the steady clock by default
 };
 
@@ -53,5 +55,9 @@ struct ProgressiveResult {
 /// some pixels; they do not count in `spp`.
 ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarget& target,
                                        const std::atomic<bool>& cancel, const ProgressiveHooks& hooks = {});
+
+/// The session's picture; target.first counts from its first sample.
+ProgressiveResult render_progressively(Session& session, const ProgressiveTarget& target,
+                                       const std::atomic<bool>& cancel, ProgressiveHooks hooks = {});
 
 }  // namespace diptych

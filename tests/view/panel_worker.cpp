@@ -43,7 +43,7 @@ bool same_sums(const Film& a, const Film& b) {
 /// The film of so many samples by a renderer made for just this.
 Film fresh_film(const Scene& loaded, const RenderedState& state, std::uint32_t seed_offset, std::uint32_t spp) {
     Scene scene = loaded;
-    put_scene(loaded, state, scene);
+    put_moment(loaded, moment_of(state), state.request.settings.camera, scene);
     const RenderSettings settings = panel_settings(state.request.settings, seed_offset, 1);
     const PackedScene packed = pack_scene(scene, settings);
     const auto renderer = make_cpu_renderer(packed, 1);
@@ -358,7 +358,7 @@ TEST_CASE("A path is recorded under the seed that is asked for", "[view]") {
     RenderedState other = job.state;
     other.request.settings.seed = 9;
     Scene posed = *scene;
-    put_scene(*scene, other, posed);
+    put_moment(*scene, moment_of(other), other.request.settings.camera, posed);
     const PackedScene packed = pack_scene(posed, panel_settings(other.request.settings, 0, 1));
     RecordedPath fresh = make_cpu_renderer(packed, 1)->record_paths({&query, 1}).front();
     for (shared::PathVertexRecord& vertex : fresh.vertices) {  // a worker's are the scene's own

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "session/backend.h"
+#include "session/open_session.h"
 #include "error.h"
 
 namespace diptych::app {
@@ -38,18 +38,18 @@ void check_pair(const PairArguments& pair) {
     }
 }
 
-std::vector<std::unique_ptr<Renderer>> make_renderers(const Scene& scene, const PackedScene& packed,
-                                                      const PairArguments& pair) {
-    std::vector<std::unique_ptr<Renderer>> renderers;
+std::vector<Session> open_sessions(const Scene& scene, const RenderSettings& settings, const PairArguments& pair) {
+    std::vector<Session> sessions;
     for (const std::string& name : pair.backends) {
         RenderRequest request;
+        request.settings = settings;
         request.backend = name;
         request.device = pair.device;
         request.threads = pair.threads;
         request.validation = pair.validation;
-        renderers.push_back(make_renderer(scene, packed, request));
+        sessions.push_back(open_session(scene, request));
     }
-    return renderers;
+    return sessions;
 }
 
 }  // namespace diptych::app

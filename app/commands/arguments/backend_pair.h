@@ -1,13 +1,11 @@
 // One scene on the backends that a command compares.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "commands/arguments/arguments.h"
-#include "pack/packed_scene.h"
-#include "render/renderer.h"
+#include "render/session.h"
 
 namespace diptych::app {
 
@@ -25,8 +23,7 @@ void add_pair_options(CLI::App& command, PairArguments& pair);
 /// Throws Error for a backend that does not exist, or is named twice, or an option that goes with none of them.
 void check_pair(const PairArguments& pair);
 
-/// In the order asked for. Scene and pack must outlive them.
-std::vector<std::unique_ptr<Renderer>> make_renderers(const Scene& scene, const PackedScene& packed,
-                                                      const PairArguments& pair);
+/// At rest, in the order asked for. The scene must outlive them.
+std::vector<Session> open_sessions(const Scene& scene, const RenderSettings& settings, const PairArguments& pair);
 
 }  // namespace diptych::app

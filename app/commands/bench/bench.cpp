@@ -7,10 +7,9 @@
 #include <optional>
 
 #include "commands/arguments/arguments.h"
-#include "session/backend.h"
 #include "commands/command.h"
 #include "error.h"
-#include "session/pack_requested.h"
+#include "session/open_session.h"
 #include "render/settings_names.h"
 #include "console/report.h"
 #include "session/scene_setup.h"
@@ -43,8 +42,7 @@ struct BenchOptions {
 /// One integrator on its own renderer, and the times of its frames.
 struct Entry {
     Integrator integrator = Integrator::path;
-    std::unique_ptr<PackedScene> packed;  // outlives the renderer, which may read it
-    std::unique_ptr<Renderer> renderer;
+    std::unique_ptr<Session> session;
     std::vector<double> frame_seconds;
     std::optional<TraversalBench> traversal;        // of integrators that take each sample by itself
     std::vector<std::vector<double>> pass_seconds;  // of each pass, its frames
@@ -76,8 +74,7 @@ std::vector<Entry> make_entries(BenchOptions& options, const Scene& scene, StepL
         request.settings.sample_count = options.spp * (most_warm_up + static_cast<std::uint32_t>(options.frames));
         Entry entry;
         entry.integrator = request.settings.integrator;
-        entry.packed = std::make_unique<PackedScene>(pack_requested(scene, request.settings));
-        entry.renderer = make_renderer(scene, *entry.packed, request);
+        entry.session = std::make_unique<Session>(open_session(scene, request));
         entries.push_back(std::move(entry));
     }
     return entries;
@@ -85,11 +82,11 @@ std::vector<Entry> make_entries(BenchOptions& options, const Scene& scene, StepL
 
 void measure(Entry& entry, std::uint32_t spp) {
     const std::atomic<bool> never = false;
-    const double before = entry.renderer->device_seconds();
-    const std::vector<PassTime> passes_before = entry.renderer->pass_times();
-    entry.renderer->render(entry.next_frame++ * spp, spp, never);
-    entry.frame_seconds.push_back(entry.renderer->device_seconds() - before);
-    const std::vector<PassTime> passes = entry.renderer->pass_times();
+    const double before = entry.session->renderer().device_seconds();
+    const std::vector<PassTime> passes_before = entry.session->renderer().pass_times();
+    entry.session->render(entry.next_frame++ * spp, spp, never);
+    entry.frame_seconds.push_back(entry.session->renderer().device_seconds() - before);
+    const std::vector<PassTime> passes = entry.session->renderer().pass_times();
     entry.pass_seconds.resize(passes.size());
     for (std::size_t i = 0; i < passes.size(); ++i) {
         entry.pass_seconds[i].push_back(passes[i].seconds - passes_before[i].seconds);
@@ -105,7 +102,7 @@ void warm_up(Entry& entry, std::uint32_t spp) {
     }
     entry.frame_seconds.clear();
     entry.pass_seconds.clear();
-    entry.rays_per_frame = -static_cast<double>(film_totals(entry.renderer->film()).rays);
+    entry.rays_per_frame = -static_cast<double>(film_totals(entry.session->film()).rays);
 }
 
 void run_rounds(std::vector<Entry>& entries, const BenchOptions& options, StepLine& line) {
@@ -120,7 +117,7 @@ void run_rounds(std::vector<Entry>& entries, const BenchOptions& options, StepLi
         }
     }
     for (Entry& entry : entries) {
-        entry.rays_per_frame += static_cast<double>(film_totals(entry.renderer->film()).rays);
+        entry.rays_per_frame += static_cast<double>(film_totals(entry.session->film()).rays);
         entry.rays_per_frame /= options.frames;
     }
     for (Entry& entry : entries) {
@@ -128,7 +125,7 @@ void run_rounds(std::vector<Entry>& entries, const BenchOptions& options, StepLi
             continue;
         }
         line.begin(fmt::format("{}, bare traversal", name_of(entry.integrator)));
-        entry.traversal = entry.renderer->bench_traversal(options.spp);  // medians of its own repeats
+        entry.traversal = entry.session->renderer().bench_traversal(options.spp);  // medians of its own repeats
     }
 }
 
@@ -158,7 +155,7 @@ std::vector<Figures> evaluate(const std::vector<Entry>& entries, const BenchOpti
 
 /// A sample's, each the median over the frames.
 std::vector<PassTime> median_passes(const Entry& entry, std::uint32_t spp) {
-    std::vector<PassTime> passes = entry.renderer->pass_times();
+    std::vector<PassTime> passes = entry.session->renderer().pass_times();
     for (std::size_t i = 0; i < passes.size(); ++i) {
         passes[i].seconds = median(entry.pass_seconds[i]) / spp;
     }
@@ -175,8 +172,8 @@ nlohmann::ordered_json passes_to_json(const Entry& entry, std::uint32_t spp) {
 
 void print_bench(const std::vector<Entry>& entries, const std::vector<Figures>& all, const RenderSettings& settings,
                  std::uint32_t spp) {
-    fmt::print("{} at {}x{}, {}\n", entries.front().renderer->backend(), settings.width, settings.height,
-               entries.front().renderer->device());
+    fmt::print("{} at {}x{}, {}\n", entries.front().session->renderer().backend(), settings.width, settings.height,
+               entries.front().session->renderer().device());
     fmt::print("{:<10} {:>10} {:>12} {:>10} {:>12} {:>10} {:>10}\n", "integrator", "ms/frame", "Msamples/s", "Mray/s",
                "bare Mray/s", "of bare", "of brdf");
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -199,8 +196,8 @@ nlohmann::ordered_json to_json(const std::vector<Entry>& entries, const std::vec
     const RenderSettings& settings = options.arguments.request.settings;
     nlohmann::ordered_json json;
     json["scene"] = options.arguments.request.scene;
-    json["backend"] = entries.front().renderer->backend();
-    json["device"] = entries.front().renderer->device();
+    json["backend"] = entries.front().session->renderer().backend();
+    json["device"] = entries.front().session->renderer().device();
     json["width"] = settings.width;
     json["height"] = settings.height;
     json["spp"] = options.spp;
@@ -208,7 +205,7 @@ nlohmann::ordered_json to_json(const std::vector<Entry>& entries, const std::vec
     json["integrators"] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Figures& figures = all[i];
-        const RendererCosts costs = entries[i].renderer->costs();
+        const RendererCosts costs = entries[i].session->renderer().costs();
         const auto relative = figures.cost_relative_to_brdf > 0 ? nlohmann::ordered_json(figures.cost_relative_to_brdf)
                                                                 : nlohmann::ordered_json();
         const auto bare = [&](double value) {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "session/backend.h"
-#include "session/pack_requested.h"
+#include "session/open_session.h"
 
 namespace diptych::app {
 
@@ -21,25 +20,22 @@ double now() {
 
 MethodRunner::Entry& MethodRunner::entry(std::uint32_t sample_count) {
     Entry& entry = entries_[method_.laid_out() ? sample_count : 0];
-    if (!entry.renderer) {
+    if (!entry.session) {
         RenderRequest request = method_.request;
         request.settings.sample_count = std::max(sample_count, 1U);
-        const double begin = now();
-        entry.packed = std::make_unique<PackedScene>(pack_requested(scene_, request.settings));
-        entry.pack_seconds = now() - begin;
-        entry.renderer = make_renderer(scene_, *entry.packed, request);
+        entry.session.emplace(open_session(scene_, request));
     }
     return entry;
 }
 
 std::string MethodRunner::device() {
-    return entry(1).renderer->device();
+    return entry(1).session->renderer().device();
 }
 
 SetupCosts MethodRunner::costs() {
     const Entry& first = entry(1);
-    const RendererCosts costs = first.renderer->costs();
-    return {first.pack_seconds, costs.build_seconds, costs.compile_seconds, costs.bytes};
+    const RendererCosts costs = first.session->renderer().costs();
+    return {first.session->pack_seconds(), costs.build_seconds, costs.compile_seconds, costs.bytes};
 }
 
 void MethodRunner::warm_up(Entry& entry, const std::atomic<bool>& cancel) {
@@ -48,7 +44,7 @@ void MethodRunner::warm_up(Entry& entry, const std::atomic<bool>& cancel) {
     }
     const double begin = now();
     for (std::uint32_t i = 0; i < 1024 && !cancel && (i == 0 || now() - begin < warm_seconds); ++i) {
-        entry.renderer->render(i, 1, cancel);
+        entry.session->render(i, 1, cancel);
     }
     entry.warm = true;
 }
@@ -66,21 +62,21 @@ bool MethodRunner::run(std::uint32_t seed, const std::vector<std::uint32_t>& cou
         Entry& at_work = entry(count);
         warm_up(at_work, cancel);
         if (fresh || method_.laid_out()) {
-            at_work.renderer->restart(seed);
+            at_work.session->restart(seed);
             fresh = false;
             device_seconds = wall_seconds = 0;
             done = 0;
         }
-        const double device_before = at_work.renderer->device_seconds();
+        const double device_before = at_work.session->renderer().device_seconds();
         const double wall_before = now();
-        at_work.renderer->render(done, count - done, cancel);
+        at_work.session->render(done, count - done, cancel);
         wall_seconds += now() - wall_before;
-        device_seconds += at_work.renderer->device_seconds() - device_before;
+        device_seconds += at_work.session->renderer().device_seconds() - device_before;
         if (cancel) {
             return false;
         }
         done = count;
-        checkpoint(count, at_work.renderer->film(), device_seconds, wall_seconds);
+        checkpoint(count, at_work.session->film(), device_seconds, wall_seconds);
     }
     return true;
 }
@@ -91,16 +87,16 @@ std::uint32_t MethodRunner::samples_within(double seconds, const std::atomic<boo
     std::uint32_t fits = 1;
     for (int pass = 0; pass < 2;
          ++pass) {  // the first is slower than what follows, where dispatches still find their size
-        at_work.renderer->restart(method_.request.settings.seed);
-        const double before = at_work.renderer->device_seconds();
+        at_work.session->restart(method_.request.settings.seed);
+        const double before = at_work.session->renderer().device_seconds();
         std::uint32_t done = 0;
         for (std::uint32_t count = 1; count <= most_spp; count *= 2) {
-            at_work.renderer->render(done, count - done, cancel);
+            at_work.session->render(done, count - done, cancel);
             if (cancel) {
                 return 0;
             }
             done = count;
-            const double taken = at_work.renderer->device_seconds() - before;
+            const double taken = at_work.session->renderer().device_seconds() - before;
             if (taken <= seconds) {
                 fits = std::max(fits, count);
             }

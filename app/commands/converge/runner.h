@@ -4,11 +4,10 @@
 #include <atomic>
 #include <functional>
 #include <map>
-#include <memory>
+#include <optional>
 
 #include "commands/converge/plan.h"
-#include "pack/packed_scene.h"
-#include "render/renderer.h"
+#include "render/session.h"
 #include "scene/scene.h"
 
 namespace diptych::app {
@@ -49,9 +48,7 @@ public:
 
 private:
     struct Entry {
-        std::unique_ptr<PackedScene> packed;  // outlives the renderer, which may read it
-        std::unique_ptr<Renderer> renderer;
-        double pack_seconds = 0;
+        std::optional<Session> session;
         bool warm = false;
     };
 

@@ -4,13 +4,12 @@
 #include <memory>
 
 #include "commands/arguments/arguments.h"
-#include "session/backend.h"
 #include "commands/command.h"
 #include "commands/info/devices_info.h"
 #include "error.h"
 #include "pack/features.h"
 #include "pack/packed_scene.h"
-#include "session/pack_requested.h"
+#include "session/open_session.h"
 #include "render/film.h"
 #include "console/report.h"
 #include "pose/clips.h"
@@ -87,8 +86,10 @@ std::vector<BufferSize> buffer_sizes(const PackedScene& packed, const RenderSett
 }
 
 /// The renderer is built for the size of its acceleration structures; scratch memory of builds is not counted.
-nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, const RenderRequest& request) {
-    const RenderSettings& settings = request.settings;
+nlohmann::ordered_json gather(const Session& session) {
+    const Scene& scene = session.scene();
+    const PackedScene& packed = session.packed();
+    const RenderSettings& settings = session.settings();
     const Counts counts = count_triangles(scene);
     const Bounds bounds = scene_bounds(scene);
     nlohmann::ordered_json json;
@@ -130,10 +131,10 @@ nlohmann::ordered_json gather(const Scene& scene, const PackedScene& packed, con
         json["buffers"][buffer.name] = buffer.bytes;
         bytes += buffer.bytes;
     }
-    const std::unique_ptr<Renderer> renderer = make_renderer(scene, packed, request);
-    json["backend"] = renderer->backend();
-    json["device"] = renderer->device();
-    const RendererCosts costs = renderer->costs();
+    const Renderer& renderer = session.renderer();
+    json["backend"] = renderer.backend();
+    json["device"] = renderer.device();
+    const RendererCosts costs = renderer.costs();
     json["acceleration_structures"] = costs.acceleration_bytes;
     json["between_passes"] = costs.pass_bytes;
     json["bytes"] = bytes + costs.acceleration_bytes + costs.pass_bytes;
@@ -203,7 +204,7 @@ int run_info(InfoOptions options) {
     request.settings.first_hit_layers = options.layers;
     const Scene scene = prepare_scene(options.arguments);
     report_warnings(clip_warnings(scene));
-    const nlohmann::ordered_json json = gather(scene, pack_requested(scene, request.settings), request);
+    const nlohmann::ordered_json json = gather(open_session(scene, request));
     if (options.json) {
         print_json(json);
     } else {

@@ -95,25 +95,24 @@ LayeredImage save_film(const Film& film, const RenderRequest& request, const Ren
     return layers;
 }
 
-Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
-                       const std::atomic<bool>& cancel, const PictureAudience& audience, const PictureChain& chain) {
+Picture render_picture(Session& session, const RenderRequest& request, const std::atomic<bool>& cancel,
+                       const PictureAudience& audience) {
+    const Renderer& renderer = session.renderer();
     const double device_seconds = renderer.device_seconds();
     const std::vector<PassTime> passes_before = renderer.pass_times();
     ProgressiveResult result;
     {
         ProgressLine line(request.spp, audience.label);
         ProgressiveTarget target;
-        target.first = chain.first_sample;
         target.spp = request.spp;
         target.seconds = request.seconds;
         target.relmse = request.target_error;
         ProgressiveHooks hooks;
-        hooks.after_first = chain.after_first;
         hooks.progress = [&](const Progress& progress) { line.show(progress); };
         if (audience.live != nullptr) {
             hooks.film = [&](const Film& film) { audience.live->show(request.output, develop(film).color); };
         }
-        result = render_progressively(renderer, target, cancel, hooks);
+        result = render_progressively(session, target, cancel, hooks);
     }
     const Film film = renderer.film();
     const FilmTotals totals = film_totals(film);
@@ -146,8 +145,8 @@ Picture render_picture(Renderer& renderer, const RenderRequest& request, std::ui
     for (std::size_t i = 0; i < passes.size(); ++i) {
         passes[i].seconds -= passes_before[i].seconds;
     }
-    picture.json = to_json(request, outcome, renderer, totals, estimated_relmse(film), features,
-                           renderer.device_seconds() - device_seconds, passes);
+    picture.json = to_json(request, outcome, renderer, totals, estimated_relmse(film),
+                           session.packed().features, renderer.device_seconds() - device_seconds, passes);
     if (!audience.quiet) {
         fmt::print("{}: {}x{}, {} spp in {:.2f} s on {}{}\n", request.output, film.width, film.height, outcome.spp,
                    outcome.seconds, outcome.device, outcome.interrupted ? ", interrupted" : "");

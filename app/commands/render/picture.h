@@ -2,13 +2,12 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "render/metadata.h"
 #include "render/request.h"
-#include "render/renderer.h"
+#include "render/session.h"
 
 namespace diptych::app {
 
@@ -22,12 +21,6 @@ struct Picture {
 /// Throws Error.
 LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome);
 
-/// A picture's place in a chain of them, each of which goes on from the one before.
-struct PictureChain {
-    std::uint32_t first_sample = 0;
-    std::function<void()> after_first;  // of its samples, where another follows
-};
-
 class LiveView;
 
 /// Who is told while it renders.
@@ -37,10 +30,9 @@ struct PictureAudience {
     LiveView* live = nullptr;  // sees the picture now and then, and at the end
 };
 
-/// Renders until the request's samples or seconds are reached or `cancel` is set, writes request.output and says so.
+/// The session's picture: renders until the request's samples or seconds are reached or `cancel` is set, writes request.output and says so.
 /// Throws Error.
-Picture render_picture(Renderer& renderer, const RenderRequest& request, std::uint32_t features,
-                       const std::atomic<bool>& cancel, const PictureAudience& audience,
-                       const PictureChain& chain = {});
+Picture render_picture(Session& session, const RenderRequest& request, const std::atomic<bool>& cancel,
+                       const PictureAudience& audience);
 
 }  // namespace diptych::app

@@ -5,14 +5,13 @@
 #include <memory>
 
 #include "commands/arguments/arguments.h"
-#include "session/backend.h"
 #include "commands/command.h"
 #include "error.h"
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
 #include "console/interrupt.h"
 #include "commands/render/live_view.h"
-#include "session/pack_requested.h"
+#include "session/open_session.h"
 #include "render/settings_names.h"
 #include "commands/render/picture.h"
 #include "commands/render/sequence.h"
@@ -110,16 +109,14 @@ int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) 
         report_warning(fmt::format("{}: its animations are not played, it is shown at rest: give --frames or --start",
                                    scene.name));
     }
-    const PackedScene packed = pack_requested(scene, request.settings);
-    const std::unique_ptr<Renderer> renderer = make_renderer(scene, packed, request);
+    Session session = open_session(scene, request);
     InterruptGuard interrupt;
     if (request.warm_up > 0) {
-        renderer->render(0, request.warm_up, interrupt.requested());
-        renderer->clear_film();
+        session.render(0, request.warm_up, interrupt.requested());
+        session.next_picture();
     }
-    const Picture picture = render_picture(*renderer, request, packed.features, interrupt.requested(),
-                                           {.label = "", .quiet = options.json, .live = live},
-                                           {.first_sample = request.warm_up, .after_first = {}});
+    const Picture picture = render_picture(session, request, interrupt.requested(),
+                                           {.label = "", .quiet = options.json, .live = live});
     if (options.json && picture.saved) {
         print_json(picture.json);
     }

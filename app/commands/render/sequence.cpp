@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "commands/command.h"
+#include "commands/render/picture.h"
 #include "console/interrupt.h"
-#include "session/played_scene.h"
+#include "render/frames.h"
 #include "render/seeds.h"
+#include "session/open_session.h"
 #include "console/report.h"
 
 namespace diptych::app {
@@ -29,21 +31,23 @@ std::string frame_path(const std::string& output, std::uint32_t frame, std::uint
 }
 
 int render_sequence(const Scene& scene, const RenderRequest& request, bool json, LiveView* live) {
-    PlayedScene played(scene, request);
+    const FrameMoments moments(scene, request);
+    Session session = open_played(scene, request);
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     InterruptGuard interrupt;
     bool interrupted = false;
     for (std::uint32_t i = 0; i < request.warm_up + request.frames && !interrupted; ++i) {
         RenderRequest frame = request;
-        if (played.chained()) {
+        if (session.chained()) {
             frame.warm_up = i;
         } else {
             frame.start = request.start + i / request.fps;
             frame.settings.seed = neighbor_seed(request.settings.seed, i);
         }
-        const BegunFrame begun = played.begin_frame(i, frame.settings.seed);
+        const bool goes_on = session.chained() && i > 0;
+        session.show(moments.at(i), goes_on ? std::nullopt : std::optional(frame.settings.seed));
         if (i < request.warm_up) {
-            played.render_frame(begun, interrupt.requested());
+            session.render(0, request.spp, interrupt.requested());
             interrupted = interrupt.requested();
             continue;
         }
@@ -51,11 +55,11 @@ int render_sequence(const Scene& scene, const RenderRequest& request, bool json,
         frame.frames = 1;
         frame.frame = i - request.warm_up;
         const std::string label = fmt::format("frame {}/{}  ", frame.frame + 1, request.frames);
-        Picture picture = render_picture(played.renderer(), frame, played.features(), interrupt.requested(),
-                                         {.label = label, .quiet = json, .live = live}, begun.chain);
+        Picture picture =
+            render_picture(session, frame, interrupt.requested(), {.label = label, .quiet = json, .live = live});
         if (picture.saved) {
-            picture.json["pack_seconds"] = begun.pack_seconds;
-            picture.json["move_seconds"] = begun.move_seconds;
+            picture.json["pack_seconds"] = session.pack_seconds();
+            picture.json["move_seconds"] = session.move_seconds();
             list.push_back(std::move(picture.json));
         }
         interrupted = picture.interrupted;

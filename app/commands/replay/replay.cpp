@@ -6,7 +6,6 @@
 #include "commands/arguments/backend_pair.h"
 #include "commands/command.h"
 #include "error.h"
-#include "session/pack_requested.h"
 #include "render/settings_names.h"
 #include "commands/replay/text.h"
 #include "console/report.h"
@@ -72,20 +71,20 @@ int run_replay(ReplayOptions options) {
         throw Error(fmt::format("--pixel {},{}: lies outside the picture of {}x{}", options.pixel[0], options.pixel[1],
                                 settings.width, settings.height));
     }
-    const PackedScene packed = pack_requested(scene, settings);
     const shared::PathQuery query{{options.pixel[0], options.pixel[1]}, options.sample};
     Replay replay;
     replay.tolerance = options.tolerance;
     replay.origin = glm::dvec3(scene.cameras[static_cast<std::size_t>(settings.camera)].camera_to_world[3]);
-    for (const std::unique_ptr<Renderer>& renderer : make_renderers(scene, packed, options.pair)) {
-        replay.backends.push_back(renderer->backend());
-        replay.devices.push_back(renderer->device());
-        replay.paths.push_back(renderer->record_paths({&query, 1}).front());
+    std::vector<Session> sessions = open_sessions(scene, settings, options.pair);
+    for (Session& session : sessions) {
+        replay.backends.push_back(session.renderer().backend());
+        replay.devices.push_back(session.renderer().device());
+        replay.paths.push_back(session.renderer().record_paths({&query, 1}).front());
     }
     if (replay.paths.size() > 1) {
         replay.parting = find_parting(replay.paths[0], replay.paths[1], options.tolerance);
     }
-    print_result(options, replay, packed.constants);
+    print_result(options, replay, sessions.front().packed().constants);
     return exit_done;
 }
 

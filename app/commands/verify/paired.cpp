@@ -11,7 +11,6 @@
 #include "error.h"
 #include "image/figures.h"
 #include "image/image_file.h"
-#include "session/pack_requested.h"
 #include "render/paired_test.h"
 #include "render/metadata.h"
 #include "render/settings_names.h"
@@ -47,12 +46,11 @@ std::vector<shared::PathQuery> list_paths(std::uint64_t first, std::size_t count
 PairedRun run_one(const Scene& scene, RenderSettings settings, const PairArguments& pair, const PairedOptions& options,
                   Image& differing) {
     const auto start = std::chrono::steady_clock::now();
-    const PackedScene packed = pack_requested(scene, settings);
-    const std::vector<std::unique_ptr<Renderer>> renderers = make_renderers(scene, packed, pair);
+    std::vector<Session> sessions = open_sessions(scene, settings, pair);
     PairedRun run;
     run.integrator = settings.integrator;
-    for (const auto& renderer : renderers) {
-        run.devices.push_back(renderer->device());
+    for (const Session& session : sessions) {
+        run.devices.push_back(session.renderer().device());
     }
     PairedTest test;
     const auto width = static_cast<std::uint32_t>(settings.width);
@@ -62,7 +60,8 @@ PairedRun run_one(const Scene& scene, RenderSettings settings, const PairArgumen
         const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(paths_at_a_time, all - first));
         const std::vector<shared::PathQuery> queries = list_paths(first, count, width, options.spp);
         const std::vector<bool> differs =
-            test.add(queries, renderers[0]->summarize_paths(queries), renderers[1]->summarize_paths(queries));
+            test.add(queries, sessions[0].renderer().summarize_paths(queries),
+                     sessions[1].renderer().summarize_paths(queries));
         for (std::size_t i = 0; i < count; ++i) {
             if (differs[i]) {
                 differing.at(static_cast<int>(queries[i].pixel.x), static_cast<int>(queries[i].pixel.y), 0) +=

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "session/open_session.h"
+
 namespace diptych::app {
 
 VerifySide::VerifySide(const SideName& name, const Scene& scene, const VerifyOptions& options,
@@ -17,15 +19,16 @@ VerifySide::VerifySide(const SideName& name, const Scene& scene, const VerifyOpt
     request.oracle_mode = name.oracle_mode;
     request.settings.seed = seeds_.seed(side_, 0);
     request.settings.sample_count = sample_count;
-    request.spp = options.frame_spp;
-    request.frames = frames.empty() ? 0 : frames.back() + 1;
     if (name.backend == "vulkan") {
         request.threads = 0;
     } else {
         request.device.clear();
         request.validation = false;
     }
-    played_ = std::make_unique<PlayedScene>(scene, request);
+    if (!frames.empty()) {
+        moments_.emplace(scene, request);
+    }
+    session_ = std::make_unique<Session>(moments_ ? open_played(scene, request) : open_session(scene, request));
 }
 
 std::size_t VerifySide::place_of(std::optional<std::uint32_t> frame) const {
@@ -37,15 +40,15 @@ const std::vector<RunMeans>& VerifySide::runs(std::optional<std::uint32_t> frame
 }
 
 std::uint64_t VerifySide::most_spp() const {
-    return played_->chained() ? seeds_.parts() * frame_spp_ : std::numeric_limits<std::uint64_t>::max();
+    return session_->chained() ? seeds_.parts() * frame_spp_ : std::numeric_limits<std::uint64_t>::max();
 }
 
 std::uint32_t VerifySide::first_seed(std::optional<std::uint32_t> frame) const {
-    return seeds_.seed(side_, 0, played_->chained() ? 0 : place_of(frame));
+    return seeds_.seed(side_, 0, session_->chained() ? 0 : place_of(frame));
 }
 
 bool VerifySide::extend(std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook) {
-    if (played_->chained()) {
+    if (session_->chained()) {
         seeds_.seed(side_, 0, (spp_ + samples - 1) / frame_spp_);
         for (std::uint32_t run = 0; run < run_count_ && !cancel; ++run) {
             hook(name_, run);
@@ -57,7 +60,7 @@ bool VerifySide::extend(std::uint32_t samples, const std::atomic<bool>& cancel, 
         render_runs(0, samples, cancel, hook);
     } else {
         for (std::size_t i = 0; i < frames_.size() && !cancel; ++i) {
-            played_->begin_frame(frames_[i], seeds_.seed(side_, 0, i));
+            session_->show(moments_->at(frames_[i]), seeds_.seed(side_, 0, i));
             render_runs(i, samples, cancel, hook);
         }
     }
@@ -69,8 +72,8 @@ void VerifySide::render_runs(std::size_t frame, std::uint32_t samples, const std
                              const RunHook& hook) {
     for (std::uint32_t run = 0; run < run_count_ && !cancel; ++run) {
         hook(name_, run);
-        played_->renderer().restart(seeds_.seed(side_, run, frame));
-        played_->renderer().render(spp_, samples, cancel);
+        session_->restart(seeds_.seed(side_, run, frame));
+        session_->render(spp_, samples, cancel);
         keep(frame, run, spp_, samples);
     }
 }
@@ -78,7 +81,8 @@ void VerifySide::render_runs(std::size_t frame, std::uint32_t samples, const std
 void VerifySide::play_chain(std::uint32_t run, std::uint32_t done, const std::atomic<bool>& cancel) {
     const std::uint32_t seed = seeds_.seed(side_, run, done / frame_spp_);
     for (std::uint32_t frame = 0, judged = 0; judged < frames_.size() && !cancel; ++frame) {
-        played_->render_frame(played_->begin_frame(frame, seed), cancel);
+        session_->show(moments_->at(frame), frame == 0 ? std::optional(seed) : std::nullopt);
+        session_->render(0, frame_spp_, cancel);
         if (frame == frames_[judged]) {
             keep(judged, run, done, frame_spp_);
             ++judged;
@@ -87,7 +91,7 @@ void VerifySide::play_chain(std::uint32_t run, std::uint32_t done, const std::at
 }
 
 void VerifySide::keep(std::size_t frame, std::uint32_t run, std::uint32_t done, std::uint32_t samples) {
-    const Film film = played_->renderer().film();
+    const Film film = session_->film();
     nonfinite_ += film_totals(film).nonfinite;
     const RunMeans means = tile_means(film, tile_);
     RunMeans& kept = runs_[frame][run];

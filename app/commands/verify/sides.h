@@ -7,9 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "session/played_scene.h"
 #include "render/film_tiles.h"
+#include "render/frames.h"
 #include "render/seeds.h"
+#include "render/session.h"
 #include "commands/verify/options.h"
 
 namespace diptych::app {
@@ -39,7 +40,7 @@ public:
     /// Of the first run of that frame; of its first chain.
     std::uint32_t first_seed(std::optional<std::uint32_t> frame) const;
     std::uint64_t nonfinite() const { return nonfinite_; }  // samples dropped, over all runs
-    std::string device() const { return played_->renderer().device(); }
+    std::string device() const { return session_->renderer().device(); }
 
 private:
     void render_runs(std::size_t frame, std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook);
@@ -54,7 +55,8 @@ private:
     std::uint32_t run_count_;
     std::uint32_t frame_spp_;
     std::vector<std::uint32_t> frames_;
-    std::unique_ptr<PlayedScene> played_;
+    std::optional<FrameMoments> moments_;  // of a sequence
+    std::unique_ptr<Session> session_;
     std::vector<std::vector<RunMeans>> runs_;  // of each frame judged; one at rest
     std::uint32_t spp_ = 0;
     std::uint64_t nonfinite_ = 0;

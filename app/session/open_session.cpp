@@ -1,0 +1,53 @@
+#include "session/open_session.h"
+
+#include <mutex>
+#include <set>
+
+#include "console/report.h"
+#include "pose/pose.h"
+#include "session/backend.h"
+
+namespace diptych::app {
+
+namespace {
+
+MakeRenderer maker_of(const RenderRequest& request) {
+    return [request](const Scene& scene, const PackedScene& packed, const RenderSettings& settings) {
+        RenderRequest asked = request;
+        asked.settings = settings;
+        return make_renderer(scene, packed, asked);
+    };
+}
+
+void report_once(const std::vector<std::string>& lines) {
+    static std::mutex mutex;
+    static std::set<std::string> reported;
+    const std::lock_guard lock(mutex);
+    for (const std::string& line : lines) {
+        if (reported.insert(line).second) {
+            report_warning(line);
+        }
+    }
+}
+
+}  // namespace
+
+SessionHooks reporting_hooks() {
+    return {.busy = {}, .warn = report_once};
+}
+
+Session open_session(const Scene& scene, const RenderRequest& request) {
+    return {scene, request.settings, maker_of(request), reporting_hooks()};
+}
+
+Session open_session(const Scene& scene, const RenderRequest& request, const Moment& moment) {
+    return {scene, request.settings, maker_of(request), moment, reporting_hooks()};
+}
+
+Session open_played(const Scene& scene, RenderRequest request) {
+    request.settings.moves = request.backend != "oracle" && chains_frames(request.settings) &&
+                             (moves(scene) || request.orbit != 0);
+    return open_session(scene, request, Moment());
+}
+
+}  // namespace diptych::app

@@ -1,0 +1,22 @@
+// A session on the backend that was asked for.
+#pragma once
+
+#include "render/request.h"
+#include "render/session.h"
+
+namespace diptych::app {
+
+/// What a pack leaves out becomes warnings on stderr: each line once, however often and in however many threads a scene
+/// is packed.
+SessionHooks reporting_hooks();
+
+/// At rest; `scene` must live as long. Throws NoDevice and Error.
+Session open_session(const Scene& scene, const RenderRequest& request);
+
+/// To be shown other moments, `moment` first.
+Session open_session(const Scene& scene, const RenderRequest& request, const Moment& moment);
+
+/// To play the frames of the request's sequence: settings.moves is put in place where they look back to one another.
+Session open_played(const Scene& scene, RenderRequest request);
+
+}  // namespace diptych::app
