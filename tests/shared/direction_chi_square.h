@@ -202,7 +202,7 @@ template <class Draw, class Pdf>
 ChiSquareResult chi_square(const Chart& chart, int64_t draws, const Draw& draw, const Pdf& pdf) {
     constexpr int columns = 65;
     constexpr int rows = 130;
-    const int fine = draws > 4000000 ? 48 : draws > 400000 ? 16 : 8;
+    const int fine = draws > 4000000 ? 48 : draws > 400000 ? 16 : draws > 131072 ? 8 : 5;  // see quadrature_limit
     std::vector<double> expected(columns * rows + 1, 0.0);
     std::vector<double> observed(columns * rows + 1, 0.0);
     ChiSquareResult result;
