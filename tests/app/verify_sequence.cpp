@@ -33,19 +33,28 @@ nlohmann::json verify(const TemporaryFolder& folder, const std::string& scene, c
     return nlohmann::json::parse(result.out);
 }
 
-/// Mean of the picture that `render` makes with these options.
-std::array<double, 3> picture_mean(const TemporaryFolder& folder, const std::string& scene, const std::string& file,
-                                   const std::vector<std::string>& more) {
+void render_walk(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
+                 const std::vector<std::string>& more) {
     const ProcessResult result =
-        run_diptych(folder, with(with({"render", scene, "-o", folder.file("walk.exr")}, walk), more));
+        run_diptych(folder, with(with({"render", scene, "-o", folder.file(output)}, walk), more));
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
+}
+
+std::array<double, 3> mean_of(const TemporaryFolder& folder, const std::string& file) {
     const Image image = read_image(folder.file(file)).color;
     std::array<double, 3> mean{};
     for (std::size_t i = 0; i < image.data.size(); ++i) {
         mean[i % 3] += 3.0 * static_cast<double>(image.data[i]) / static_cast<double>(image.data.size());
     }
     return mean;
+}
+
+/// Mean of the picture that `render` makes with these options.
+std::array<double, 3> picture_mean(const TemporaryFolder& folder, const std::string& scene, const std::string& file,
+                                   const std::vector<std::string>& more) {
+    render_walk(folder, scene, "walk.exr", more);
+    return mean_of(folder, file);
 }
 
 void check_mean(const nlohmann::json& mean, const std::vector<std::array<double, 3>>& pictures) {
@@ -74,6 +83,18 @@ TEST_CASE("verify judges the frames that render paints", "[app]") {
         CHECK(json.at("pairs")[0].at("frame") == 3);
         CHECK(json.at("pairs")[1].at("frame") == 5);
         CHECK(json.at("pairs")[1].at("time") == 1.125);
+        // Both frames are of the same chains.
+        const auto chain_seed = [&](const nlohmann::json& pair, std::uint32_t run, std::uint32_t chain) {
+            return pair.at("seed_a").get<std::uint32_t>() + run + chain * pair.at("chain_seed_step").get<std::uint32_t>();
+        };
+        for (std::uint32_t run = 0; run < 2; ++run) {
+            for (std::uint32_t chain = 0; chain < 2; ++chain) {
+                const std::string seed = std::to_string(chain_seed(json.at("pairs")[0], run, chain));
+                render_walk(folder, scene, "chain-" + seed + ".exr",
+                            {"--start", "0.5", "--backend", backend, "--integrator", "restir", "--frames", "6", "--spp",
+                             "1", "--seed", seed});
+            }
+        }
         for (const auto& pair : json.at("pairs")) {
             const int frame = pair.at("frame");
             INFO("frame " << frame);
@@ -81,11 +102,8 @@ TEST_CASE("verify judges the frames that render paints", "[app]") {
             std::vector<std::array<double, 3>> moments;
             for (std::uint32_t run = 0; run < 2; ++run) {
                 for (std::uint32_t chain = 0; chain < 2; ++chain) {
-                    const std::uint32_t seed = pair.at("seed_a").get<std::uint32_t>() + run +
-                                               chain * pair.at("chain_seed_step").get<std::uint32_t>();
-                    chains.push_back(picture_mean(folder, scene, "walk.000" + std::to_string(frame) + ".exr",
-                                                  {"--start", "0.5", "--backend", backend, "--integrator", "restir",
-                                                   "--frames", "6", "--spp", "1", "--seed", std::to_string(seed)}));
+                    chains.push_back(mean_of(folder, "chain-" + std::to_string(chain_seed(pair, run, chain)) + ".000" +
+                                                         std::to_string(frame) + ".exr"));
                 }
                 const std::uint32_t seed = pair.at("seed_b").get<std::uint32_t>() + run;
                 moments.push_back(picture_mean(folder, scene, "walk.exr",
