@@ -22,3 +22,16 @@ function(diptych_library name)
   endif()
   set(${name}_SCOPE ${scope} PARENT_SCOPE)
 endfunction()
+
+# diptych_loaded_library(NAME FOLDERS folder... INCLUDE dir... [LINK target...])
+# A shared object libNAME.so of the .cpp files that lie directly in the folders, for dlopen. It exports only what its
+# sources mark with default visibility. No program links it, so whoever opens it has to depend on it.
+function(diptych_loaded_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "FOLDERS;INCLUDE;LINK")
+  list(TRANSFORM ARG_FOLDERS APPEND /*.cpp OUTPUT_VARIABLE patterns)
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  add_library(${name} MODULE ${sources})
+  target_include_directories(${name} PRIVATE ${ARG_INCLUDE})
+  target_link_libraries(${name} PRIVATE diptych_options ${ARG_LINK})
+  set_target_properties(${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+endfunction()

@@ -1,16 +1,15 @@
 #include "gltf/image.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <memory>
-#include <mutex>
+#include <stdexcept>
 #include <string_view>
 #include <thread>
 
 #include "error.h"
+#include "image/image_library.h"
 
 namespace diptych::gltf {
 namespace {
@@ -42,19 +41,6 @@ bool is_ktx2(const Bytes& bytes) {
     return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
 }
 
-/// One at a time: OpenImageIO reads colour profiles in `open`, and some of its versions (2.4) do so with data shared
-/// between threads, which now and then corrupted the heap where many images with profiles were decoded at once.
-std::unique_ptr<OIIO::ImageInput> open_image(const char* name, const OIIO::ImageSpec& config) {
-    static std::mutex one_at_a_time;
-    const std::lock_guard lock(one_at_a_time);
-    return OIIO::ImageInput::open(name, &config);
-}
-
-std::string open_error(const std::string& fallback) {
-    const std::string message = OIIO::geterror();
-    return message.empty() ? fallback : message;
-}
-
 // One to four channels to RGBA: grey is repeated, a missing alpha is opaque.
 void spread_channels(const std::vector<std::uint8_t>& from, std::size_t channels, std::vector<std::uint8_t>& rgba) {
     const std::size_t texels = rgba.size() / 4;
@@ -66,6 +52,23 @@ void spread_channels(const std::vector<std::uint8_t>& from, std::size_t channels
         rgba[4 * i + 2] = grey ? texel[0] : texel[2];
         rgba[4 * i + 3] = channels == 2 ? texel[1] : channels >= 4 ? texel[3] : std::uint8_t{255};
     }
+}
+
+/// The first one to four channels.
+ByteImage decode(const char* name, const Bytes& bytes) {
+    const std::unique_ptr<PictureFile> file = image_library().open(name, bytes);
+    const PictureHeader& header = file->headers().front();
+    const auto [x, y, width, height] = header.stored;
+    const std::size_t channels = header.part.channels.size();
+    const std::int64_t texels = std::int64_t{width} * height;
+    if (width < 1 || height < 1 || header.depth > 1 || channels < 1 || texels > max_texels) {
+        throw Error("has a size of " + std::to_string(width) + "x" + std::to_string(height) + "x" +
+                    std::to_string(channels));
+    }
+    ByteImage image{width, height, static_cast<int>(std::min<std::size_t>(channels, 4)), {}};
+    image.data.resize(static_cast<std::size_t>(texels) * static_cast<std::size_t>(image.channels));
+    file->read(0, 0, image.channels, image.data);
+    return image;
 }
 
 }  // namespace
@@ -81,40 +84,26 @@ TextureImage decode_image(const EncodedImage& encoded) {
     if (name == nullptr) {
         throw Error("is neither PNG, JPEG nor WebP");
     }
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(encoded.bytes.data()), encoded.bytes.size());
-    OIIO::Filesystem::IOProxy* proxy = &memory;
-    OIIO::ImageSpec config;
-    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    // PNG would come premultiplied otherwise, and dark colours under low alpha would be lost.
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    const std::unique_ptr<OIIO::ImageInput> input = open_image(name, config);
-    if (!input) {
-        throw Error("cannot be decoded: " + open_error("unknown format"));
+    ByteImage decoded;
+    try {
+        decoded = decode(name, encoded.bytes);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw Error(std::string("cannot be decoded: ") + error.what());
     }
-    const OIIO::ImageSpec& spec = input->spec();
-    const std::int64_t texels = std::int64_t{spec.width} * spec.height;
-    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || texels > max_texels) {
-        throw Error("has a size of " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + "x" +
-                    std::to_string(spec.nchannels));
-    }
-    const auto channels = static_cast<std::size_t>(std::min(spec.nchannels, 4));
-    std::vector<std::uint8_t> decoded(static_cast<std::size_t>(texels) * channels);
-    if (!input->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::UINT8, decoded.data())) {
-        throw Error("cannot be decoded: " + input->geterror());
-    }
-    TextureImage image{encoded.name, spec.width, spec.height, {}};
-    if (channels == 4) {
-        image.rgba = std::move(decoded);
+    TextureImage image{encoded.name, decoded.width, decoded.height, {}};
+    if (decoded.channels == 4) {
+        image.rgba = std::move(decoded.data);
     } else {
-        image.rgba.resize(static_cast<std::size_t>(texels) * 4);
-        spread_channels(decoded, channels, image.rgba);
+        image.rgba.resize(4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+        spread_channels(decoded.data, static_cast<std::size_t>(decoded.channels), image.rgba);
     }
     return image;
 }
 
 bool reads_webp() {
-    const std::string formats = "," + std::string(OIIO::get_string_attribute("input_format_list")) + ",";
-    return formats.find(",webp,") != std::string::npos;
+    return image_library().reads("webp");
 }
 
 TextureImage checker(const std::string& name) {
@@ -132,6 +121,9 @@ TextureImage checker(const std::string& name) {
 }
 
 DecodedImages decode_images(const Document& document, const std::vector<int>& wanted) {
+    if (!wanted.empty()) {
+        image_library();  // where it is missing, that is an error, not a warning for each image
+    }
     DecodedImages decoded{std::vector<TextureImage>(wanted.size()), std::vector<std::string>(wanted.size())};
     std::atomic<std::size_t> next{0};
     const auto work = [&] {

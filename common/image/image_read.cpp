@@ -5,11 +5,9 @@
 #include <new>
 #include <stdexcept>
 
-#include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
-
 #include "error.h"
 #include "image/image_file.h"
+#include "image/image_library.h"
 #include "image/near_miss.h"
 #include "image/picture_layers.h"
 #include "image/radiance_file.h"
@@ -22,11 +20,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& reason) {
     throw std::runtime_error(reason);
-}
-
-[[noreturn]] void fail_by_library(const std::string& text) {
-    const std::string line = text.substr(0, text.find('\n'));
-    fail(line.empty() ? "unknown reason" : line);
 }
 
 [[noreturn]] void fail_without_layers(const std::string& layer) {
@@ -62,51 +55,34 @@ RawImage read_radiance_raw(const fs::path& path, const std::string& layer) {
     return raw;
 }
 
-PicturePart part_of(const OIIO::ImageSpec& spec, bool exr, bool one_of_several) {
-    PicturePart part;
-    part.channels = spec.channelnames;
-    part.deep = spec.deep;
-    if (one_of_several)
-        part.name = spec.get_string_attribute("oiio:subimagename");
-    if (!exr && spec.nchannels == 1)
-        part.channels = {"Y"};
-    std::array<float, 8> v{};
-    if (exr && spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), v.data())) {
-        part.chromaticities = Chromaticities{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
-        if (!is_color_space(*part.chromaticities))
-            fail("its chromaticities span no colour space");
-    }
-    return part;
-}
-
-/// All parts of an EXR; of other formats only the first, since further ones are pages or smaller copies of it.
-std::vector<PicturePart> parts_of(OIIO::ImageInput& input, bool exr) {
-    const int count = exr ? std::max(1, input.spec().get_int_attribute("oiio:subimages", 1)) : 1;
+std::vector<PicturePart> parts_of(const PictureFile& file) {
     std::vector<PicturePart> parts;
-    for (int i = 0; i < count; ++i) {
-        if (!input.seek_subimage(i, 0))
-            fail_by_library(input.geterror());
-        parts.push_back(part_of(input.spec(), exr, count > 1));
+    for (const PictureHeader& header : file.headers()) {
+        PicturePart part = header.part;
+        if (file.headers().size() == 1)
+            part.name.clear();
+        if (!file.exr() && part.channels.size() == 1)
+            part.channels = {"Y"};
+        if (part.chromaticities && !is_color_space(*part.chromaticities))
+            fail("its chromaticities span no colour space");
+        parts.push_back(part);
     }
     return parts;
 }
 
 /// The display window is the picture, and the data window is placed in it: OpenEXR's 'Technical Introduction', section
 /// 'Display Window and Data Window'. Other formats give windows other meanings, and theirs are not looked at.
-void find_windows(const OIIO::ImageSpec& spec, bool exr, RawImage& raw) {
-    const PixelWindow stored{spec.x, spec.y, spec.width, spec.height};
-    raw.display = exr ? PixelWindow{spec.full_x, spec.full_y, spec.full_width, spec.full_height}
-                      : PixelWindow{0, 0, spec.width, spec.height};
-    raw.data = exr ? intersection(raw.display, stored) : raw.display;
+void find_windows(const PictureHeader& header, bool exr, RawImage& raw) {
+    raw.display = exr ? header.display : PixelWindow{0, 0, header.stored.width, header.stored.height};
+    raw.data = exr ? intersection(raw.display, header.stored) : raw.display;
 }
 
-/// Channels `begin` to `end` of the part that `input` stands at.
-void read_channels(OIIO::ImageInput& input, int subimage, int begin, int end, RawImage& raw) {
-    const OIIO::ImageSpec& spec = input.spec();
+/// Channels `begin` to `end` of a part.
+void read_channels(PictureFile& file, size_t part, int begin, int end, RawImage& raw) {
+    const PixelWindow window = file.headers()[part].stored;
     const int channels = end - begin;
-    Image stored = make_image(spec.width, spec.height, channels);
-    if (!input.read_image(subimage, 0, begin, end, OIIO::TypeFloat, stored.data.data()))
-        fail_by_library(input.geterror());
+    Image stored = make_image(window.width, window.height, channels);
+    file.read(part, begin, end, stored.data);
     if (raw.data == raw.display && stored.width == raw.display.width && stored.height == raw.display.height) {
         raw.image = std::move(stored);
         return;
@@ -114,17 +90,17 @@ void read_channels(OIIO::ImageInput& input, int subimage, int begin, int end, Ra
     raw.image = make_image(raw.display.width, raw.display.height, channels);
     for (int row = 0; row < raw.data.height; ++row) {
         const int y = raw.data.y + row;
-        const float* from = &stored.data[stored.index(raw.data.x - spec.x, y - spec.y, 0)];
+        const float* from = &stored.data[stored.index(raw.data.x - window.x, y - window.y, 0)];
         float* to = &raw.image.data[raw.image.index(raw.data.x - raw.display.x, y - raw.display.y, 0)];
         std::copy_n(from, static_cast<size_t>(raw.data.width) * static_cast<size_t>(channels), to);
     }
 }
 
-void check_sizes(const OIIO::ImageSpec& spec, const RawImage& raw, int channels, std::size_t file_bytes) {
-    if (spec.depth > 1)
+void check_sizes(const PictureHeader& header, const RawImage& raw, int channels, std::size_t file_bytes) {
+    if (header.depth > 1)
         fail("it is a volume, not a picture");
     const std::string reasons[] = {
-        size_claim_problem(spec.width, spec.height, channels, file_bytes),
+        size_claim_problem(header.stored.width, header.stored.height, channels, file_bytes),
         size_claim_problem(raw.display.width, raw.display.height, channels, file_bytes, display_grant)};
     for (const std::string& reason : reasons)
         if (!reason.empty())
@@ -132,48 +108,38 @@ void check_sizes(const OIIO::ImageSpec& spec, const RawImage& raw, int channels,
 }
 
 RawImage read_by_library(const fs::path& path, const std::string& layer, const std::vector<std::string>& beside) {
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
-    if (!input)
-        fail_by_library(OIIO::geterror());
-    const bool exr = std::string_view(input->format_name()) == "openexr";
-    if (!exr && !layer.empty())
+    const std::unique_ptr<PictureFile> file = image_library().open(path);
+    if (!file->exr() && !layer.empty())
         fail_without_layers(layer);
-    const std::vector<PicturePart> parts = parts_of(*input, exr);
+    const std::vector<PicturePart> parts = parts_of(*file);
     const ChosenPicture picture = choose_picture(parts, layer);
-    const int subimage = static_cast<int>(picture.part);
-    if (!input->seek_subimage(subimage, 0))
-        fail_by_library(input->geterror());
-    const OIIO::ImageSpec& spec = input->spec();
+    const PictureHeader& header = file->headers()[picture.part];
 
     // One read of a range of channels: each read of an EXR decompresses all of them.
+    const std::vector<std::string>& names = header.part.channels;
     int begin = *std::min_element(picture.channels.begin(), picture.channels.end());
     int end = *std::max_element(picture.channels.begin(), picture.channels.end()) + 1;
     for (const std::string& name : beside) {
-        const auto found = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
-        if (found == spec.channelnames.end())
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end())
             continue;
-        begin = std::min(begin, static_cast<int>(found - spec.channelnames.begin()));
-        end = std::max(end, static_cast<int>(found - spec.channelnames.begin()) + 1);
+        begin = std::min(begin, static_cast<int>(found - names.begin()));
+        end = std::max(end, static_cast<int>(found - names.begin()) + 1);
     }
 
     RawImage raw;
-    find_windows(spec, exr, raw);
-    check_sizes(spec, raw, end - begin, fs::file_size(path));
-    raw.channel_names.assign(spec.channelnames.begin() + begin, spec.channelnames.begin() + end);
+    find_windows(header, file->exr(), raw);
+    check_sizes(header, raw, end - begin, fs::file_size(path));
+    raw.channel_names.assign(names.begin() + begin, names.begin() + end);
     for (const int channel : picture.channels)
         raw.color.push_back(channel - begin);
-    raw.integer = !spec.channelformat(picture.channels[0]).is_floating_point();
-    const bool marked_linear = OIIO::Strutil::istarts_with(spec.get_string_attribute("oiio:ColorSpace"), "lin");
-    raw.srgb_encoded = raw.integer && !marked_linear;
+    raw.integer = header.integer[static_cast<size_t>(picture.channels[0])];
+    raw.srgb_encoded = raw.integer && !header.marked_linear;
     raw.xyz = picture.xyz;
-    raw.chromaticities = parts[picture.part].chromaticities;
+    raw.chromaticities = header.part.chromaticities;
     raw.layer = picture.by_elimination ? picture.layer : "";
-    for (const OIIO::ParamValue& attribute : spec.extra_attribs)
-        if (attribute.type() == OIIO::TypeString)
-            raw.attributes[attribute.name().string()] = attribute.get_ustring().string();
-    read_channels(*input, subimage, begin, end, raw);
+    raw.attributes = header.attributes;
+    read_channels(*file, picture.part, begin, end, raw);
     return raw;
 }
 

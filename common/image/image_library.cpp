@@ -1,0 +1,35 @@
+#include "image/image_library.h"
+
+#include <dlfcn.h>
+
+#include "error.h"
+#include "image/library/entry.h"
+
+namespace diptych {
+namespace {
+
+constexpr const char* file_name = "libdiptych_images.so";
+
+[[noreturn]] void fail(const std::string& reason) {
+    throw Error(std::string(file_name) + ", which reads and writes pictures, cannot be loaded: " + reason);
+}
+
+const ImageLibrary& load() {
+    void* library = dlopen(file_name, RTLD_LAZY | RTLD_LOCAL);
+    if (library == nullptr)
+        fail(dlerror());
+    const auto entry = reinterpret_cast<ImageLibraryEntry*>(dlsym(library, image_library_entry));
+    const ImageLibrary* images = entry == nullptr ? nullptr : entry(DIPTYCH_VERSION);
+    if (images == nullptr)
+        fail("it belongs to another version than " DIPTYCH_VERSION);
+    return *images;  // stays loaded until the process ends
+}
+
+}  // namespace
+
+const ImageLibrary& image_library() {
+    static const ImageLibrary& library = load();
+    return library;
+}
+
+}  // namespace diptych

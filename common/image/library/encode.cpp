@@ -1,0 +1,50 @@
+#include "image/library/encode.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include "image/library/fail.h"
+
+namespace diptych {
+namespace {
+
+ImageLibrary::Bytes encode(const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                           const void* pixels) {
+    OIIO::Filesystem::IOVecOutput memory;
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    if (!output)
+        fail_by_library(OIIO::geterror());
+    if (!output->set_ioproxy(&memory))
+        fail_by_library("OpenImageIO cannot encode " + format + " in memory");
+    if (!output->open("memory." + format, spec) || !output->write_image(type, pixels) || !output->close())
+        fail_by_library(output->geterror());
+    return memory.buffer();
+}
+
+}  // namespace
+
+ImageLibrary::Bytes exr_bytes(const Image& image, const std::vector<std::string>& channel_names,
+                              const std::map<std::string, std::string>& attributes) {
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeFloat);
+    spec.channelnames = channel_names;
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "");  // else the time of writing: equal pictures are to be equal files
+    for (const auto& [name, value] : attributes)
+        spec.attribute(name, value);
+    return encode("exr", spec, OIIO::TypeFloat, image.data.data());
+}
+
+ImageLibrary::Bytes hdr_bytes(const Image& image) {
+    const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeFloat);
+    return encode("hdr", spec, OIIO::TypeFloat, image.data.data());
+}
+
+ImageLibrary::Bytes png_bytes(const ByteImage& image, bool srgb) {
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeUInt8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);  // else the colours are taken for premultiplied
+    if (srgb)
+        spec.attribute("oiio:ColorSpace", "sRGB");
+    return encode("png", spec, OIIO::TypeUInt8, image.data.data());
+}
+
+}  // namespace diptych

@@ -1,0 +1,14 @@
+// Writing picture files with OpenImageIO. They are encoded in memory, because then every failed write to the disk is
+// seen, whatever the format's library checks.
+#pragma once
+
+#include "image/image_library.h"
+
+namespace diptych {
+
+ImageLibrary::Bytes exr_bytes(const Image& image, const std::vector<std::string>& channel_names,
+                              const std::map<std::string, std::string>& attributes);
+ImageLibrary::Bytes hdr_bytes(const Image& image);
+ImageLibrary::Bytes png_bytes(const ByteImage& image, bool srgb);
+
+}  // namespace diptych

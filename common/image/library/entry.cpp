@@ -1,0 +1,39 @@
+#include "image/library/entry.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <string_view>
+
+#include "image/library/encode.h"
+#include "image/library/picture_file.h"
+
+namespace diptych {
+namespace {
+
+class OpenImageIO final : public ImageLibrary {
+public:
+    std::unique_ptr<PictureFile> open(const std::filesystem::path& path) const override { return open_picture(path); }
+    std::unique_ptr<PictureFile> open(const std::string& name, std::span<const std::uint8_t> bytes) const override {
+        return open_picture(name, bytes);
+    }
+    bool reads(const std::string& format) const override {
+        const std::string formats = "," + std::string(OIIO::get_string_attribute("input_format_list")) + ",";
+        return formats.find("," + format + ",") != std::string::npos;
+    }
+    Bytes encode_exr(const Image& image, const std::vector<std::string>& channel_names,
+                     const std::map<std::string, std::string>& attributes) const override {
+        return exr_bytes(image, channel_names, attributes);
+    }
+    Bytes encode_hdr(const Image& image) const override { return hdr_bytes(image); }
+    Bytes encode_png(const ByteImage& image, bool srgb) const override { return png_bytes(image, srgb); }
+};
+
+}  // namespace
+}  // namespace diptych
+
+extern "C" [[gnu::visibility("default")]] const diptych::ImageLibrary* diptych_image_library(const char* version);
+
+const diptych::ImageLibrary* diptych_image_library(const char* version) {
+    static const diptych::OpenImageIO library;
+    return std::string_view(version) == DIPTYCH_VERSION ? &library : nullptr;
+}

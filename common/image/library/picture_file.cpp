@@ -1,0 +1,108 @@
+#include "image/library/picture_file.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+#include "image/library/fail.h"
+
+namespace diptych {
+namespace {
+
+PictureHeader header_of(const OIIO::ImageSpec& spec, bool exr) {
+    PictureHeader header;
+    header.part.name = spec.get_string_attribute("oiio:subimagename");
+    header.part.channels = spec.channelnames;
+    header.part.deep = spec.deep;
+    std::array<float, 8> v{};
+    if (exr && spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), v.data()))
+        header.part.chromaticities = Chromaticities{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
+    header.stored = {spec.x, spec.y, spec.width, spec.height};
+    header.display = {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+    header.depth = spec.depth;
+    for (int channel = 0; channel < spec.nchannels; ++channel)
+        header.integer.push_back(!spec.channelformat(channel).is_floating_point());
+    header.marked_linear = OIIO::Strutil::istarts_with(spec.get_string_attribute("oiio:ColorSpace"), "lin");
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+        if (attribute.type() == OIIO::TypeString)
+            header.attributes[attribute.name().string()] = attribute.get_ustring().string();
+    return header;
+}
+
+class OpenPicture final : public PictureFile {
+public:
+    /// `memory` is what `input` reads from, where that is no file.
+    OpenPicture(std::unique_ptr<OIIO::Filesystem::IOMemReader> memory, std::unique_ptr<OIIO::ImageInput> input)
+        : memory_(std::move(memory)),
+          input_(std::move(input)),
+          exr_(std::string_view(input_->format_name()) == "openexr") {
+        const int parts = exr_ ? std::max(1, input_->spec().get_int_attribute("oiio:subimages", 1)) : 1;
+        for (int part = 0; part < parts; ++part) {
+            if (!input_->seek_subimage(part, 0))
+                fail_by_library(input_->geterror());
+            headers_.push_back(header_of(input_->spec(), exr_));
+        }
+    }
+
+    bool exr() const override { return exr_; }
+    const std::vector<PictureHeader>& headers() const override { return headers_; }
+    void read(size_t part, int begin, int end, std::span<float> values) override {
+        read(part, begin, end, OIIO::TypeFloat, values.data());
+    }
+    void read(size_t part, int begin, int end, std::span<std::uint8_t> values) override {
+        read(part, begin, end, OIIO::TypeUInt8, values.data());
+    }
+
+private:
+    void read(size_t part, int begin, int end, OIIO::TypeDesc type, void* values) {
+        if (!input_->read_image(static_cast<int>(part), 0, begin, end, type, values))
+            fail_by_library(input_->geterror());
+    }
+
+    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;  // before input_, which is to go first
+    std::unique_ptr<OIIO::ImageInput> input_;
+    bool exr_;
+    std::vector<PictureHeader> headers_;
+};
+
+/// Without this, PNG files come with premultiplied colours, and dark colours under low alpha are lost.
+OIIO::ImageSpec unassociated_alpha() {
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    return config;
+}
+
+}  // namespace
+
+std::unique_ptr<PictureFile> open_picture(const std::filesystem::path& path) {
+    const OIIO::ImageSpec config = unassociated_alpha();
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
+    if (!input)
+        fail_by_library(OIIO::geterror());
+    return std::make_unique<OpenPicture>(nullptr, std::move(input));
+}
+
+std::unique_ptr<PictureFile> open_picture(const std::string& name, std::span<const std::uint8_t> bytes) {
+    auto* data = const_cast<std::uint8_t*>(bytes.data());  // which the reader only reads
+    auto memory = std::make_unique<OIIO::Filesystem::IOMemReader>(data, bytes.size());
+    OIIO::Filesystem::IOProxy* proxy = memory.get();
+    OIIO::ImageSpec config = unassociated_alpha();
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    // One at a time: OpenImageIO reads colour profiles in `open`, and some of its versions (2.4) do so with data shared
+    // between threads, which now and then corrupted the heap where many images with profiles were decoded at once.
+    static std::mutex one_at_a_time;
+    std::unique_ptr<OIIO::ImageInput> input;
+    {
+        const std::lock_guard lock(one_at_a_time);
+        input = OIIO::ImageInput::open(name, &config);
+    }
+    if (!input)
+        fail_by_library(OIIO::geterror());
+    return std::make_unique<OpenPicture>(std::move(memory), std::move(input));
+}
+
+}  // namespace diptych

@@ -1,0 +1,11 @@
+// Reading picture files with OpenImageIO.
+#pragma once
+
+#include "image/image_library.h"
+
+namespace diptych {
+
+std::unique_ptr<PictureFile> open_picture(const std::filesystem::path& path);
+std::unique_ptr<PictureFile> open_picture(const std::string& name, std::span<const std::uint8_t> bytes);
+
+}  // namespace diptych
