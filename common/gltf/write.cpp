@@ -1,9 +1,9 @@
 #include "gltf/write.h"
 
 #include "error.h"
+#include "gltf/encode_image.h"
 #include "gltf/json_animation.h"
 #include "gltf/write_file.h"
-#include "scene/png_encode.h"
 
 #include <algorithm>
 #include <cstring>
@@ -256,7 +256,7 @@ std::string_view view_of(const std::vector<std::uint8_t>& bytes) {
 }
 
 void add_image(Document& document, const TextureImage& image, const std::filesystem::path& path, bool binary) {
-    const std::vector<std::uint8_t> png = encode_png(image);
+    const std::vector<std::uint8_t> png = gltf::encode_image(image);
     const std::string name = image.name.empty() ? std::to_string(document.images.size) : image.name;
     if (binary) {
         const int view = add_view(document, png.data(), png.size(), no_target);
