@@ -62,11 +62,11 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 Process::Process(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
-                 const std::vector<std::string>& environment) {
+                 const std::vector<std::string>& environment, const std::string& program) {
     const std::string number = std::to_string(process_count++);
     out_ = folder.file("stdout." + number);
     err_ = folder.file("stderr." + number);
-    std::vector<std::string> words = {DIPTYCH_PROGRAM};
+    std::vector<std::string> words = {program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     child_ = fork();
     if (child_ == 0) {
@@ -123,8 +123,8 @@ ProcessResult Process::finish() {
 }
 
 ProcessResult run_diptych(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
-                          const std::vector<std::string>& environment) {
-    return Process(folder, arguments, environment).finish();
+                          const std::vector<std::string>& environment, const std::string& program) {
+    return Process(folder, arguments, environment, program).finish();
 }
 
 namespace {

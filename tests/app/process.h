@@ -36,7 +36,7 @@ class Process {
 public:
     /// `environment` holds NAME=VALUE entries on top of the test's own; stdout and stderr go to files in the folder.
     Process(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
-            const std::vector<std::string>& environment = {});
+            const std::vector<std::string>& environment = {}, const std::string& program = DIPTYCH_PROGRAM);
     ~Process();
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
@@ -64,7 +64,8 @@ bool program_has_validation();
 std::vector<std::string> validation_environment();
 
 ProcessResult run_diptych(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
-                          const std::vector<std::string>& environment = {});
+                          const std::vector<std::string>& environment = {},
+                          const std::string& program = DIPTYCH_PROGRAM);
 
 /// `diptych generate NAME` into the folder; the path of the .glb.
 std::string generate_scene(const TemporaryFolder& folder, const std::string& name);
