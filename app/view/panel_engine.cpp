@@ -204,7 +204,7 @@ void PanelEngine::publish(bool first) {
     shot_.height = of_film.height;
     shot_.divisor = divisor_;
     shot_.spp = samples_;
-    shot_.correlated = of_film.integrator == Integrator::restir;
+    shot_.correlated = reuses(of_film.integrator);
     shot_.samples_per_second = speed_.samples_per_second;
     shot_.costs = session_->renderer().costs();
     // A film on the device is shown from there, and no motion waits for a copy of it.

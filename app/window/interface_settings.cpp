@@ -154,7 +154,7 @@ void draw_settings(const Theme& theme, const InterfaceFacts& facts, ViewState& s
         draw_sampling(theme, request.settings);
     }
     if (resamples(request.settings.integrator) && section(theme, "Resampling")) {
-        draw_resampling(theme, request.settings.resampling, request.settings.integrator == Integrator::restir);
+        draw_resampling(theme, request.settings.resampling, reuses(request.settings.integrator));
     }
     if (section(theme, "Display")) {
         draw_display(theme, state.shown);

@@ -17,7 +17,7 @@ bool may_be_passed(const PackedScene& packed, const shared::EmissiveTriangle& li
 
 bool searches_emitters(const PackedScene& packed) {
     const shared::RenderConstants& c = packed.constants;
-    return c.integrator >= shared::INTEGRATOR_RIS && c.resampling.bsdf_candidates != 0 && c.max_depth > 0 &&
+    return shared::resamples_lights(c.integrator) && c.resampling.bsdf_candidates != 0 && c.max_depth > 0 &&
            c.emissive_triangle_count > 0;
 }
 

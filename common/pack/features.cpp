@@ -96,16 +96,16 @@ std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings
     bits |= settings.first_hit_layers ? shared::FEATURE_FIRST_HIT_LAYERS : 0U;
     const bool has_light = (bits & (shared::FEATURE_EMISSIVE | shared::FEATURE_CONSTANT_ENVIRONMENT |
                                     shared::FEATURE_ENVIRONMENT_MAP | shared::FEATURE_PUNCTUAL)) != 0;
-    const bool samples_lights =
-        settings.integrator == Integrator::brdf ? (bits & shared::FEATURE_PUNCTUAL) != 0 : has_light;
+    const bool has_light_to_sample =
+        samples_lights(settings.integrator) ? has_light : (bits & shared::FEATURE_PUNCTUAL) != 0;
     bits |= resamples(settings.integrator) ? shared::FEATURE_RESAMPLING : 0U;
-    bits |= settings.integrator == Integrator::restir && settings.resampling.visibility == ResamplingVisibility::target
+    bits |= reuses(settings.integrator) && settings.resampling.visibility == ResamplingVisibility::target
                 ? shared::FEATURE_TARGET_VISIBILITY
                 : 0U;
-    bits |= settings.integrator == Integrator::restir && settings.moves ? shared::FEATURE_MOTION : 0U;
-    bits |= samples_lights ? shared::FEATURE_LIGHT_SAMPLING : 0U;
+    bits |= reuses(settings.integrator) && settings.moves ? shared::FEATURE_MOTION : 0U;
+    bits |= has_light_to_sample ? shared::FEATURE_LIGHT_SAMPLING : 0U;
     // Of direct light alone, only what a mirror shows is found by a ray from the first vertex.
-    const bool finds_by_chance = settings.integrator == Integrator::brdf || settings.integrator == Integrator::path ||
+    const bool finds_by_chance = (samples_material(settings.integrator) && !resamples(settings.integrator)) ||
                                  (bits & shared::FEATURE_MIRRORS) != 0;
     bits |= settings.max_depth > (finds_by_chance ? 0 : 1) ? shared::FEATURE_LATER_VERTICES : 0U;
     return bits;

@@ -85,7 +85,7 @@ void pack_environment(const Scene& scene, const RenderSettings& settings, Packed
     for (std::size_t i = 0; i < e.texels.size(); ++i) {
         packed.environment_texels.emplace_back(e.texels[i], static_cast<float>(pmf[i]));
     }
-    if (settings.integrator != Integrator::brdf && mean > 0) {
+    if (samples_lights(settings.integrator) && mean > 0) {
         packed.environment_table = build_alias_table(pmf);
     }
     place_environment(scene, packed);

@@ -200,7 +200,7 @@ void weigh_lights(PackedScene& packed) {
     powers.resize(packed.emissive_triangles.size() + packed.punctual_lights.size());
     // Material sampling finds every light but the punctual ones by itself.
     const bool samples_environment =
-        constants.integrator != shared::INTEGRATOR_BRDF && packed.environment_luminance > 0;
+        shared::samples_lights(constants.integrator) && packed.environment_luminance > 0;
     if (samples_environment) {
         powers.push_back(4 * pi * pi * packed.radius * packed.radius * packed.environment_luminance);
     }
@@ -229,7 +229,7 @@ void weigh_lights(PackedScene& packed) {
 }
 
 void pack_lights(const Scene& scene, PackedScene& packed) {
-    if (packed.constants.integrator != shared::INTEGRATOR_BRDF) {
+    if (shared::samples_lights(packed.constants.integrator)) {
         lay_out_emitters(packed);
     }
     packed.emitter_means.resize(packed.emissive_triangles.size());
@@ -242,8 +242,7 @@ void pack_lights(const Scene& scene, PackedScene& packed) {
     place_punctual_lights(scene, packed);
     require_indexable(scene, packed.light_powers.size() + 1, "lights");
     weigh_lights(packed);
-    if (packed.constants.integrator == shared::INTEGRATOR_RIS ||
-        packed.constants.integrator == shared::INTEGRATOR_RESTIR) {
+    if (shared::resamples_lights(packed.constants.integrator)) {
         cluster_lights(packed);
         weigh_clusters(packed);
     }

@@ -8,6 +8,12 @@
 
 namespace diptych {
 
+/// Throws Error where copies of the view would not fill the film: a part of one would reuse pixels that are not there.
+void check_atlas(const RenderSettings& settings);
+
+/// What the settings alone say of the constants.
+void pack_settings(const RenderSettings& settings, shared::RenderConstants& constants);
+
 /// Materials, the texture slots that they read and the texels behind those; each image once.
 void pack_materials(const Scene& scene, PackedScene& packed);
 

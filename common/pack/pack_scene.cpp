@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <utility>
@@ -20,52 +19,10 @@ glm::dvec3 rebase_origin(const Scene& scene, const RenderSettings& settings) {
     return camera == nullptr ? glm::dvec3(0) : glm::dvec3(camera->camera_to_world[3]);
 }
 
-/// Copies of the view fill the film: a part of one would reuse pixels that are not there.
-void check_atlas(const RenderSettings& settings) {
-    const auto tile = static_cast<int>(settings.atlas_tile);
-    if (tile == 0) {
-        return;
-    }
-    if (!resamples(settings.integrator)) {
-        throw Error("--atlas " + std::to_string(tile) + ": goes with --integrator ris or restir");
-    }
-    if (settings.width % tile != 0 || settings.height % tile != 0) {
-        throw Error("--atlas " + std::to_string(tile) + ": does not divide the size of " +
-                    std::to_string(settings.width) + "x" + std::to_string(settings.height));
-    }
-}
-
-void pack_settings(const RenderSettings& settings, shared::RenderConstants& c) {
-    c.size = {static_cast<std::uint32_t>(settings.width), static_cast<std::uint32_t>(settings.height)};
-    c.seed = settings.seed;
-    c.sampler_kind = static_cast<std::uint32_t>(settings.sampler);
-    c.sample_count = settings.sample_count;
-    c.max_depth = settings.max_depth;
-    c.integrator = static_cast<std::uint32_t>(settings.integrator);
-    c.brdf = static_cast<std::uint32_t>(settings.brdf);
-    c.normal_maps = settings.normal_maps == NormalMaps::shading ? shared::NORMAL_MAP_SHADING : shared::NORMAL_MAP_MICROFACET;
-    c.mis = static_cast<std::uint32_t>(settings.mis);
-    c.atlas_tile = settings.atlas_tile;
-    const ResamplingSettings& from = settings.resampling;
-    c.resampling.light_candidates = from.light_candidates;
-    // One pick at least goes to what has no place.
-    c.resampling.near_candidates =
-        std::min(static_cast<std::uint32_t>(from.near_share * static_cast<float>(from.light_candidates)),
-                 std::max(from.light_candidates, 1U) - 1);
-    c.resampling.bsdf_candidates = from.bsdf_candidate ? 1 : 0;
-    c.resampling.temporal = from.temporal ? 1 : 0;
-    c.resampling.spatial_passes = from.spatial_passes;
-    c.resampling.neighbors = std::min(from.neighbors, shared::RESAMPLING_MAX_NEIGHBORS);
-    c.resampling.radius = from.radius;
-    c.resampling.confidence_cap = from.confidence_cap;
-    c.resampling.mis = static_cast<std::uint32_t>(from.mis);
-    c.resampling.visibility = static_cast<std::uint32_t>(from.visibility);
-}
-
 }  // namespace
 
 void keep_previous(PackedScene& packed) {
-    if (packed.constants.integrator != shared::INTEGRATOR_RESTIR) {
+    if (!shared::reuses_reservoirs(packed.constants.integrator)) {
         return;
     }
     packed.constants.previous_camera = packed.constants.camera;
@@ -163,15 +120,14 @@ bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedS
     constexpr std::uint32_t of_arrays =
         shared::FEATURE_TEXTURES | shared::FEATURE_NORMAL_MAPS | shared::FEATURE_SECOND_UV;
     const std::uint32_t features = needed_features(scene, settings);
-    const bool lays_out_lights = settings.integrator != Integrator::brdf;
+    const bool lays_out_lights = samples_lights(settings.integrator);
     if (((features ^ packed.features) & of_arrays) != 0 ||
-        lays_out_lights != (packed.constants.integrator != shared::INTEGRATOR_BRDF) ||
+        lays_out_lights != shared::samples_lights(packed.constants.integrator) ||
         environment_tint(scene.environment) != packed.environment_tint ||
         scene.lights.size() != packed.punctual_lights.size()) {
         return false;
     }
-    const bool resampled = packed.constants.integrator == shared::INTEGRATOR_RIS ||
-                           packed.constants.integrator == shared::INTEGRATOR_RESTIR;
+    const bool resampled = shared::resamples_lights(packed.constants.integrator);
     pack_moment(scene, settings, packed);
     packed.features = features;
     packed.keeps_previous = settings.moves;

@@ -204,7 +204,7 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
         add("mis", name_of(settings.mis));
         add("generic", yes_or_no(settings.generic));
         add("warm_up", request.warm_up);
-        add("correlated", yes_or_no(settings.integrator == Integrator::restir));
+        add("correlated", yes_or_no(reuses(settings.integrator)));
         if (resamples(settings.integrator)) {
             const ResamplingSettings& resampling = settings.resampling;
             add_number(ranges::candidates, resampling.light_candidates);

@@ -1,10 +1,12 @@
 #include "render/resampling_schedule.h"
 
+#include "path/integrators.h"
+
 namespace diptych {
 
 bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants) {
-    const bool resamples = constants.integrator >= shared::INTEGRATOR_RIS;
-    const bool reuses = constants.integrator == shared::INTEGRATOR_RESTIR;
+    const bool resamples = shared::resamples_lights(constants.integrator);
+    const bool reuses = shared::reuses_reservoirs(constants.integrator);
     switch (stage) {
     case ResamplingStage::temporal:
         return reuses && constants.resampling.temporal != 0;
@@ -53,7 +55,7 @@ ResamplingSets resampling_sets(const shared::RenderConstants& constants) {
     if (!needs_stage(ResamplingStage::candidates, constants)) {
         return {};
     }
-    const bool reuses = constants.integrator == shared::INTEGRATOR_RESTIR;
+    const bool reuses = shared::reuses_reservoirs(constants.integrator);
     const bool temporal = needs_stage(ResamplingStage::temporal, constants);
     const bool spatial = needs_stage(ResamplingStage::spatial, constants);
     return {.first_vertices = 1,

@@ -3,18 +3,30 @@
 
 #include <cstdint>
 
+#include "path/integrators.h"
+
 namespace diptych {
 
 enum class Integrator { brdf, direct, path, ris, restir };
 enum class BrdfModel { ggx, blinn_phong };
-enum class NormalMaps { shading, microfacet };
+enum class NormalMaps { shading = 1, microfacet = 2 };  // 0 is a surface without a map
 enum class SamplerKind { independent, hammersley, sobol };
 enum class MisHeuristic { power, balance };
 enum class ResamplingMis { pairwise, balance, one_over_z, biased_one_over_m };
 enum class ResamplingVisibility { shading, target, biased_initial, biased_final };
 
+// What an integrator does; see path/integrators.h.
+inline bool samples_material(Integrator integrator) {
+    return shared::samples_material(static_cast<std::uint32_t>(integrator));
+}
+inline bool samples_lights(Integrator integrator) {
+    return shared::samples_lights(static_cast<std::uint32_t>(integrator));
+}
 inline bool resamples(Integrator integrator) {
-    return integrator == Integrator::ris || integrator == Integrator::restir;
+    return shared::resamples_lights(static_cast<std::uint32_t>(integrator));
+}
+inline bool reuses(Integrator integrator) {
+    return shared::reuses_reservoirs(static_cast<std::uint32_t>(integrator));
 }
 
 /// How `ris` and `restir` resample; see ResamplingConstants in shared_glsl_cpp/language/scene_types.h.
@@ -54,7 +66,7 @@ struct RenderSettings {
 /// Whether frames reuse what those before them found, so that they go on from one another and their samples depend on
 /// one another.
 inline bool chains_frames(const RenderSettings& settings) {
-    return settings.integrator == Integrator::restir && settings.resampling.temporal;
+    return reuses(settings.integrator) && settings.resampling.temporal;
 }
 
 }  // namespace diptych

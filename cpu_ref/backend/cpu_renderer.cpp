@@ -190,7 +190,7 @@ private:
         }
     }
 
-    bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
+    bool resamples() const { return shared::resamples_lights(constants_.integrator); }
 
     /// One sample of every pixel, pass by pass. A frame is not cut short, or its reservoirs would be of two frames.
     void render_frame(Film& film, std::uint32_t frame) {

@@ -11,6 +11,7 @@
 #include "bsdf/frame.h"
 #include "geometry/hit.h"
 #include "lights/light_clusters.h"
+#include "path/integrators.h"
 #include "path/mis.h"
 #include "path/path_record.h"
 #include "geometry/ray_offset.h"

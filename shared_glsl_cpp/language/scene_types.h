@@ -216,7 +216,7 @@ struct RenderConstants {
     uint sampler_kind;  // SAMPLER_…
     uint sample_count;  // the total that a Hammersley set is laid out for
     uint max_depth;     // scattering events
-    uint integrator;    // INTEGRATOR_…
+    uint integrator;    // INTEGRATOR_… (path/integrators.h)
     uint brdf;          // BRDF_…
     uint normal_maps;   // NORMAL_MAP_…
     uint mis;           // MIS_…
@@ -230,11 +230,6 @@ struct RenderConstants {
 };
 ASSERT_SIZE(RenderConstants, 260);
 
-CONST uint INTEGRATOR_BRDF = 0u;
-CONST uint INTEGRATOR_DIRECT = 1u;
-CONST uint INTEGRATOR_PATH = 2u;
-CONST uint INTEGRATOR_RIS = 3u;     // `path` whose first vertex picks among many light candidates
-CONST uint INTEGRATOR_RESTIR = 4u;  // and reuses what its neighbours in time and space picked
 CONST uint BRDF_GGX = 0u;
 CONST uint BRDF_BLINN_PHONG = 1u;
 // What a normal map does to a surface.

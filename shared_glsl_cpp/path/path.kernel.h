@@ -41,21 +41,21 @@ FN uint ray_alpha_key(IN(Sampler) random, uint ray) {
 
 /// Weight of finding a light by sampling the material with density `pdf` where light sampling had density `pdf_light`.
 FN float bsdf_sampling_weight(float pdf, float pdf_light) {
-    if (constants.integrator >= INTEGRATOR_PATH) {
+    if (weighs_by_mis(constants.integrator)) {
         return MUTANT(MIS_ONE_AT_HIT, mis_weight(constants.mis, pdf, pdf_light), 1.0f);
     }
-    return constants.integrator == INTEGRATOR_BRDF ? 1.0f : 0.0f;
+    return samples_material(constants.integrator) ? 1.0f : 0.0f;
 }
 
 FN float light_sampling_weight(IN(LightSample) light, float pdf) {
-    if (light.delta || constants.integrator < INTEGRATOR_PATH) {
+    if (light.delta || !weighs_by_mis(constants.integrator)) {
         return 1.0f;
     }
     return MUTANT(MIS_ONE_AT_LIGHT, mis_weight(constants.mis, light.pdf, pdf), 1.0f);
 }
 
 /// Whether a ray that found light by sampling the material, from a vertex that could also sample lights, needs the light's pdf.
-FN bool needs_light_pdf() { return feature(FEATURE_LIGHT_SAMPLING) && constants.integrator >= INTEGRATOR_PATH; }
+FN bool needs_light_pdf() { return feature(FEATURE_LIGHT_SAMPLING) && weighs_by_mis(constants.integrator); }
 
 /// Density with which `reference` would have sampled this point of a surface as a light, from the hit's ids.
 FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
@@ -130,7 +130,7 @@ FN DirectLight resampled_direct_light(IN(Vertex) v, IN(Reservoir) chosen) {
 }
 
 /// Whether the first vertex takes its direct light, all of it, from a reservoir.
-FN bool resamples_first_vertex() { return feature(FEATURE_RESAMPLING) && constants.integrator >= INTEGRATOR_RIS; }
+FN bool resamples_first_vertex() { return feature(FEATURE_RESAMPLING) && resamples_lights(constants.integrator); }
 
 /// A path on its way: the ray it goes on along and what it has gathered.
 struct PathState {
@@ -298,7 +298,7 @@ FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
     path.only_strategy = next.delta != 0u;
     bool goes_on = next.pdf > 0.0f && max_component(path.throughput) > 0.0f;
     bool only_lights_left = !path.only_strategy && depth + 1u == constants.max_depth;
-    if (only_lights_left && (constants.integrator == INTEGRATOR_DIRECT || path.light_is_complete)) {
+    if (only_lights_left && (!samples_material(constants.integrator) || path.light_is_complete)) {
         goes_on = false;  // the last ray could only find light that has been sampled
     }
     float survival = survival_probability(path.throughput, depth);

@@ -146,7 +146,7 @@ FN void share_with_material(IN(FirstSurface) first, IN(LightPicker) picker, IN(B
     SeenLight light = see_light_point(reservoir.point, first.origin, MOMENT_CURRENT);
     BsdfValue value = surface_bsdf_eval_pdf(first.bsdf, first.wo, light.direction, features());
     float share = bsdf_share(first, picker, c, reservoir.point, light, value.pdf);
-    if (first.reuses && constants.integrator == INTEGRATOR_RESTIR) {
+    if (first.reuses && reuses_reservoirs(constants.integrator)) {
         float asked = min(share * (1.0f / BSDF_SHARE_LEAST), 1.0f);
         uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
         if (unit_float(pick.z) < asked) {
@@ -198,7 +198,7 @@ FN CandidateRequest resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
         }
     }
     store_reservoir(pass.reservoirs, index, reservoir);
-    if (constants.integrator == INTEGRATOR_RESTIR) {
+    if (reuses_reservoirs(constants.integrator)) {
         store_reuse_surface(pass.surfaces, index, kept);
     }
     return request;

@@ -201,7 +201,7 @@ void PathRenderer::choose_pipelines() {
         candidates_.picked = &compute_pipeline(shader_of(ResamplingStage::candidates));
         if (constants_.resampling.bsdf_candidates != 0) {
             candidates_.bsdf = &pipeline(shader_binary("restir_bsdf_candidates.rgen"));
-            if (constants_.integrator == shared::INTEGRATOR_RESTIR) {
+            if (shared::reuses_reservoirs(constants_.integrator)) {
                 candidates_.shares = &pipeline(shader_binary("restir_share_picked.rgen"));
             }
         }

@@ -88,7 +88,7 @@ private:
     void record_stage(Recorder& recorder, ResamplingStage stage, const Slice& slice, shared::Dispatch dispatch) const;
     void show_reservoirs(const ResamplingStep& step);
     std::uint64_t slice_budget() const;
-    bool resamples() const { return constants_.integrator >= shared::INTEGRATOR_RIS; }
+    bool resamples() const { return shared::resamples_lights(constants_.integrator); }
     bool goes_in_waves() const;
     void warm_up() const;
     Slice next_slice(SliceCursor& cursor, const SpeedEstimate& speed) const;
