@@ -25,7 +25,7 @@ struct EmissionKernel {
 #undef DEFINE_LOAD
 
 #define RECORD(field, value)
-#include "lights/light.kernel.h"
+#include "lights/emission.kernel.h"
 #undef RECORD
 };
 

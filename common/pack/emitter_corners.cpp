@@ -5,7 +5,7 @@
 namespace diptych {
 namespace {
 
-/// As may_be_passed (light_point.kernel.h) tells shaders: what they think could be found must be found.
+/// As may_be_passed (emitter.kernel.h) tells shaders: what they think could be found must be found.
 bool may_be_passed(const PackedScene& packed, const shared::EmissiveTriangle& light) {
     const std::uint32_t needed = shared::FEATURE_ALPHA | shared::FEATURE_EMISSIVE_TEXTURES;
     const std::uint32_t flags = packed.materials[packed.geometries[light.geometry].material].flags;

@@ -7,10 +7,15 @@
 
 SHARED_BEGIN
 
-/// D(h), per steradian; Walter et al. 2007, eq. 33, as alpha^2 / (pi (cos^2 alpha^2 + sin^2)^2), which does not cancel.
+/// cos^2 alpha^2 + sin^2 of a facet normal, which does not cancel.
+FN float ggx_stretch(float cos_h, float sin2_h, float a2) {
+    return cos_h * cos_h * a2 + sin2_h;
+}
+
+/// D(h), per steradian; Walter et al. 2007, eq. 33, as alpha^2 / (pi (cos^2 alpha^2 + sin^2)^2).
 FN float ggx_d(vec3 h, float alpha) {
     float a2 = alpha * alpha;
-    float t = h.z * h.z * a2 + (h.x * h.x + h.y * h.y);
+    float t = ggx_stretch(h.z, h.x * h.x + h.y * h.y, a2);
     t = MUTANT(GGX_D_CANCELS, t, h.z * h.z * (a2 - 1.0f) + 1.0f);
     float r = alpha / t;
     return h.z > 0.0f ? INV_PI * r * r : 0.0f;
@@ -57,6 +62,17 @@ FN float ggx_eval(vec3 wo, vec3 wi, vec3 h, float alpha) {
     float o = wi.z * ggx_smith_length(wo, alpha);
     float i = wo.z * ggx_smith_length(wi, alpha);
     return 0.5f * ggx_d(h, alpha) * (wi.z / (o + i));
+}
+
+/// ggx_eval from cosines to the normal and the half vector's squared sine, for cosines that were raised to a least one: no directions have
+/// them. Where directions do, this is ggx_eval up to rounding.
+FN float ggx_eval_of_cosines(float cos_o, float cos_i, float cos_h, float sin2_h, float alpha) {
+    float a2 = alpha * alpha;
+    float t = ggx_stretch(cos_h, sin2_h, a2);
+    float d = INV_PI * a2 / (t * t);
+    float o = cos_i * sqrt(cos_o * cos_o * (1.0f - a2) + a2);
+    float i = cos_o * sqrt(cos_i * cos_i * (1.0f - a2) + a2);
+    return 0.5f * d * cos_i / (o + i);
 }
 
 /// Density of the reflected direction, per steradian of wi: D_v / (4 o·h) = D G1 / (4 cos_o).

@@ -1,10 +1,11 @@
-// From a hit's ids to the surface that is shaded.
+// From a hit's ids and its ray to the surface that is shaded.
 #ifndef SURFACE_KERNEL_H
 #define SURFACE_KERNEL_H
 
 #include "geometry/texture.kernel.h"
 
-/// A hit rebuilt from its ids and barycentrics (Wächter and Binder 2019), in world space.
+/// A hit in world space, rebuilt from its ids and from the ray that found it (load_surface), with an origin for rays that leave it
+/// (Wächter and Binder 2019).
 struct Surface {
     vec3 position;
     vec3 normal;       // geometric, unit, of the front face
@@ -110,15 +111,6 @@ FN Surface load_surface(IN(Hit) hit, IN(Instance) instance, vec3 origin, vec3 di
     s.emitter_slot =
         instance.first_emitter_slot == NONE ? NONE : instance.first_emitter_slot + hit.geometry;
     return s;
-}
-
-/// Radiance that a point of a material emits from a side that emits; unlit materials emit their base colour.
-FN vec3 material_emission(IN(Material) material, IN(MeshPoint) p) {
-    if ((material.flags & MATERIAL_UNLIT) != 0u) {
-        return xyz(base_color(material, p));
-    }
-    vec3 emission = xyz(slot_value(material.emission_slot, p));
-    return material.emission * MUTANT(EMISSION_OF_RED, emission, vec3(emission.x, emission.x, emission.x));
 }
 
 /// The interpolated normal, on the front side; the geometric one where the mesh has none.

@@ -5,7 +5,7 @@
 #define PATH_KERNEL_H
 
 #include "geometry/alpha.kernel.h"
-#include "lights/light_point.kernel.h"
+#include "lights/light.kernel.h"
 
 /// The place of a pixel in whatever holds a film's.
 FN uint pixel_index(uvec2 pixel) { return pixel.y * constants.size.x + pixel.x; }
@@ -26,7 +26,7 @@ FN FirstHit no_first_hit() {
     return hit;
 }
 
-/// Russian roulette starts at this vertex and never kills with a probability below 5 %.
+/// Probability that Russian roulette lets a path go on: 1 before its fourth vertex (depth 3), and at most 0.95 from there on.
 FN float survival_probability(vec3 throughput, uint depth) {
     return depth < 3u ? 1.0f : min(MUTANT(ROULETTE_BY_RED, max_component(throughput), throughput.x), 0.95f);
 }
@@ -56,18 +56,6 @@ FN float light_sampling_weight(IN(LightSample) light, float pdf) {
 
 /// Whether a ray that found light by sampling the material, from a vertex that could also sample lights, needs the light's pdf.
 FN bool needs_light_pdf() { return feature(FEATURE_LIGHT_SAMPLING) && weighs_by_mis(constants.integrator); }
-
-/// Density with which `reference` would have sampled this point of a surface as a light, from the hit's ids.
-FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
-    if (!feature(FEATURE_EMISSIVE) || s.emitter_slot == NONE) {
-        return 0.0f;
-    }
-    uint first = load_emitter_slots(s.emitter_slot);
-    if (first == NONE) {
-        return 0.0f;
-    }
-    return pdf_emitter(load_emissive_triangles(first + s.primitive), reference, s.position);
-}
 
 /// Whether light adds nothing. NaN is not black: it has to reach the film, which counts it.
 FN bool is_black(vec3 radiance) { return radiance.x == 0.0f && radiance.y == 0.0f && radiance.z == 0.0f; }

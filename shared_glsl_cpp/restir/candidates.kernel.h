@@ -2,13 +2,8 @@
 #ifndef CANDIDATES_KERNEL_H
 #define CANDIDATES_KERNEL_H
 
-#include "lights/light_picker.kernel.h"
+#include "restir/candidate_picker.kernel.h"
 #include "path/path.kernel.h"
-
-/// The target without visibility, per uv.
-FN float unoccluded_target(IN(TargetSurface) s, IN(SeenLight) light) {
-    return light.measure * luminance(target_reflectance(s, light.direction) * light.radiance);
-}
 
 /// How a surface's material is sampled for candidates.
 struct BsdfCandidates {
@@ -20,7 +15,7 @@ struct BsdfCandidates {
 /// roughest of them now and then: a point of those is picked for its area and not for being near, so seldom and with a weight as large as
 /// that is seldom. That it might be found by its solid angle bounds it where it is about as bright as the scene's lamps are, and
 /// short rays are cheap. The bound is 1 / count, and what comes near it is rarer the rougher the surface is.
-FN BsdfCandidates bsdf_candidates(IN(SurfaceBsdf) bsdf, IN(LightPicker) picker) {
+FN BsdfCandidates bsdf_candidates(IN(SurfaceBsdf) bsdf, IN(CandidatePicker) picker) {
     BsdfCandidates c;
     c.count = 0.0f;
     c.reach = 0.0f;
@@ -86,7 +81,7 @@ FN TargetSurface picking_surface(IN(FirstSurface) first) {
 }
 
 /// Light points, one kept in proportion to the target.
-FN Resampling resample_lights(IN(TargetSurface) surface, IN(LightPicker) picker, IN(Sampler) random) {
+FN Resampling resample_lights(IN(TargetSurface) surface, IN(CandidatePicker) picker, IN(Sampler) random) {
     Resampling chosen = begin_resampling();
     uint count = constants.light_count > 0u ? constants.resampling.light_candidates : 0u;
     ClusterSteps steps = begin_cluster_steps(random);
@@ -118,12 +113,12 @@ FN Reservoir initial_reservoir(IN(Resampling) chosen) {
 /// The target of what is chosen in the end: the one that others can evaluate, or, where none will, the integrand itself.
 FN float candidate_target(IN(FirstSurface) first, IN(SeenLight) light, vec3 f) {
     return first.reuses ? unoccluded_target(unpack_reuse_surface(first.packed, features()), light)
-                        : light.measure * luminance(f * light.radiance);
+                        : target_of_reflectance(f, light);
 }
 
 /// How much of its weight a picked point gives to sampling the material, which is done q times, by the balance heuristic:
 /// q p_bsdf / (q p_bsdf + n p_pick), where that may find it.
-FN float bsdf_share(IN(FirstSurface) first, IN(LightPicker) picker, IN(BsdfCandidates) c, IN(LightPoint) picked,
+FN float bsdf_share(IN(FirstSurface) first, IN(CandidatePicker) picker, IN(BsdfCandidates) c, IN(LightPoint) picked,
                     IN(SeenLight) light, float pdf) {
     if (!is_within(c, first.origin, light)) {
         return 0.0f;
@@ -138,7 +133,7 @@ FN float bsdf_share(IN(FirstSurface) first, IN(LightPicker) picker, IN(BsdfCandi
 /// not weighs nothing in the end. But others may see what is hidden from here, and to them the shares have to add up to 1: there a ray among
 /// the emitters asks. Where the share r is small it seldom pays to look: with probability a = min(1, r / BSDF_SHARE_LEAST) the point gives up
 /// r / a if no emitter is before it, which comes to the same.
-FN void share_with_material(IN(FirstSurface) first, IN(LightPicker) picker, IN(BsdfCandidates) c,
+FN void share_with_material(IN(FirstSurface) first, IN(CandidatePicker) picker, IN(BsdfCandidates) c,
                             INOUT(Reservoir) reservoir, INOUT(CandidateRequest) request) {
     if (!(c.count > 0.0f) || !(reservoir.weight > 0.0f)) {
         return;
@@ -187,7 +182,7 @@ FN CandidateRequest resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
         vertex.origin = first.origin;
         store_first_vertex(index, vertex);
         TargetSurface surface = picking_surface(first);
-        LightPicker picker = begin_light_picker(surface);
+        CandidatePicker picker = begin_candidate_picker(surface);
         BsdfCandidates c = bsdf_candidates(first.bsdf, picker);
         reservoir = initial_reservoir(resample_lights(surface, picker, first.random));
         request.needs = bsdf_candidate_needs(first, c) | (picker.close ? CANDIDATE_IS_CLOSE : 0u);

@@ -20,9 +20,9 @@ CONST uint CANDIDATE_IS_CLOSE = 8u;
 /// What initial resampling still needs of a pixel once lights were picked, and what it knows by then.
 struct CandidateRequest {
     uint pixel;      // its index
-    uint needs;      // CANDIDATE_SAMPLES_BSDF, CANDIDATE_SHARES; IS_NARROW: samples BSDF_CANDIDATES_NARROW times; IS_CLOSE: as LightPicker has it
+    uint needs;      // CANDIDATE_SAMPLES_BSDF, CANDIDATE_SHARES; IS_NARROW: samples BSDF_CANDIDATES_NARROW times; IS_CLOSE: as CandidatePicker has it
     float share;     // of what was picked, that it gives up if no emitter is before it
-    float near_sum;  // LightPicker::sum, for which it would have to look at all clusters again
+    float near_sum;  // CandidatePicker::sum, for which it would have to look at all clusters again
 };
 ASSERT_SIZE(CandidateRequest, 16);
 

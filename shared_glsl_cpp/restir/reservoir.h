@@ -4,19 +4,11 @@
 #ifndef RESERVOIR_H
 #define RESERVOIR_H
 
-#include "language/compat.h"
+#include "lights/light_point.h"
 
 SHARED_BEGIN
 
 CONST float TARGET_MIN = 1.0e-20f;  // a target below it counts as 0
-
-/// A point on a light: `uv` are barycentrics b1, b2 of an emissive triangle; of the environment, direction_uv; of a punctual light,
-/// nothing.
-struct LightPoint {
-    uint light;  // NONE: no point
-    vec2 uv;
-};
-ASSERT_SIZE(LightPoint, 12);
 
 struct Reservoir {
     LightPoint point;
@@ -31,13 +23,6 @@ ASSERT_SIZE(Reservoir, 28);
 /// chosen less often, and where it is, its favor is divided out of W (end_resampling). The expectation is the same whatever positive number
 /// that is, so no m_i need know of it, as they would of a target with visibility. Why a half: docs/decisions/0014-favor.md.
 CONST float FAVOR_HIDDEN = 0.5f;
-
-FN LightPoint no_light_point() {
-    LightPoint y;
-    y.light = NONE;
-    y.uv = vec2(0.0f, 0.0f);
-    return y;
-}
 
 FN Reservoir empty_reservoir() {
     Reservoir r;

@@ -1,8 +1,11 @@
-// ReSTIR direct light (Bitterli et al. 2020) in its unbiased GRIS form (Lin et al. 2022), as passes over the film: `first hits` traces
-// the camera's rays; `candidates` resamples light points for what they met, in passes that pick lights, sample materials where that
-// pays, and test what is seen if the target asks; `temporal` merges what the same surface had a frame before; `spatial` merges what
-// neighbours have; `shadows` asks whether the point that came out is seen; `shade` takes the first vertex's direct light from it and
-// goes on as a path. `ris` is all of them but the two that merge.
+// ReSTIR direct light (Bitterli et al. 2020) in its unbiased GRIS form (Lin et al. 2022), as passes over the film:
+// `first hits` traces the camera's rays.
+// `candidates` resamples light points for what the rays met, in passes that pick lights, sample materials where that pays, and trace shadow
+// rays if visibility is `target` or `biased-initial`.
+// `temporal` merges what the same surface had a frame before; `spatial` merges what neighbours have.
+// `shadows` traces the shadow ray to the point that came out.
+// `shade` takes the first vertex's direct light from that point and goes on as a path.
+// `ris` is all of them but the two that merge.
 //
 // Passes that trace a ray of every pixel do little else: a device that traverses in its shaders' own registers has more rays in
 // flight then.
@@ -20,7 +23,7 @@ FN bool has_emitters() { return feature(FEATURE_EMISSIVE) && constants.emissive_
 
 /// What sampling the material finds, if anything, with the density of finding it so, all times together: the nearest emitter or, where there
 /// is none, the environment, whatever else is before it. `i`: which time.
-FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) picker, uint i, INOUT(uint) rays) {
+FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(CandidatePicker) picker, uint i, INOUT(uint) rays) {
     LightPointSample found;
     found.point = no_light_point();
     found.pdf = 0.0f;
@@ -36,7 +39,7 @@ FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(LightPicker) p
         found.point = trace_emitters(first.origin, next.direction, c.reach);
     }
     if (found.point.light == NONE && !(c.reach < INFINITE_DISTANCE)) {
-        found.point.light = constants.emissive_triangle_count + constants.punctual_light_count;
+        found.point.light = environment_light();
         found.point.uv = direction_uv(next.direction);
     }
     if (found.point.light < constants.light_count) {
@@ -77,7 +80,7 @@ FN void add_bsdf_candidate(IN(CandidateRequest) request, IN(ResamplingPass) pass
     uvec2 pixel = uvec2(index % constants.size.x, index / constants.size.x);
     FirstVertex vertex = load_first_vertex(index);
     FirstSurface first = load_first_surface(pixel, pass, vertex.hit);
-    LightPicker picker = resume_light_picker(unpack_reuse_surface(first.packed, features()), request);
+    CandidatePicker picker = resume_candidate_picker(unpack_reuse_surface(first.packed, features()), request);
     LightPointSample found = find_light_by_bsdf(first, picker, pass.iteration, vertex.rays);
     store_first_vertex(index, vertex);
     if (!(found.pdf > 0.0f)) {

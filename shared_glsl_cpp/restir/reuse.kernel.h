@@ -19,13 +19,6 @@ struct Neighborhood {
     float confidence_cap;
 };
 
-/// The target p̂ at a surface, per uv: as the lights and occluders of `moment` have it. Counts the rays it needs.
-FN float target_at(IN(TargetSurface) s, IN(LightPoint) y, uint moment, INOUT(uint) rays) {
-    SeenLight light = see_light_point(y, s.position, moment);
-    float target = unoccluded_target(s, light);
-    return target > TARGET_MIN && target_sees(s.position, light, y, moment, rays) ? target : 0.0f;
-}
-
 FN Reservoir neighbor_reservoir(IN(Neighborhood) others, uint i) {
     Reservoir r = load_reservoir(others.reservoir_set, others.pixels[i]);
     r.confidence = min(r.confidence, others.confidence_cap);

@@ -1,24 +1,12 @@
-// A first vertex as neighbours in space and time see it: enough to evaluate the target function there, in 36 bytes and in world space, so
-// that it stays true when what it was taken from has moved.
-//
-// The target need not be the integrand, but must be positive wherever the integrand is. Quantised normals could break that at a
-// horizon, so cosines here have a floor wider than the rounding.
+// A first vertex as neighbours in space and time see it: enough to evaluate the target function there (target.h), in 36 bytes and in world
+// space, so that it stays true when what it was taken from has moved.
 #ifndef REUSE_SURFACE_H
 #define REUSE_SURFACE_H
 
-#include "bsdf/fresnel.h"
-#include "bsdf/ggx.h"
 #include "bsdf/surface_bsdf.h"
+#include "restir/target.h"
 
 SHARED_BEGIN
-
-CONST float TARGET_COS_MIN = 1.0e-3f;        // floor of cosines to the shading normal; octahedral rounding is below 1e-4
-CONST float TARGET_COS_MIN_FACETS = 0.1f;    // under a microfacet normal map light also comes by the tangent facet
-CONST float TARGET_ALPHA_MIN = 0.001f;       // narrower lobes are widened: octahedral rounding moves their peaks
-CONST float TARGET_ALPHA_MIN_FACETS = 0.1f;  // under such a map, as the target lacks the tangent facet's lobes
-CONST uint REUSE_SURFACE_VALID = 1u;
-CONST uint REUSE_SURFACE_MAPPED = 2u;        // shaded by a normal map's normal
-CONST uint REUSE_SURFACE_FACETS = 4u;        // by a microfacet normal map
 
 /// Packed: unit vectors octahedral, colours with a shared exponent.
 struct ReuseSurface {
@@ -31,20 +19,6 @@ struct ReuseSurface {
     uint rest;  // from the low bits: flags 8, f90 8, alpha 16
 };
 ASSERT_SIZE(ReuseSurface, 36);
-
-/// Unpacked.
-struct TargetSurface {
-    vec3 position;
-    vec3 geometric_normal;
-    vec3 normal;
-    vec3 specular_normal;  // the same but where a normal map shades
-    vec3 wo;
-    vec3 diffuse;
-    vec3 f0;
-    float f90;
-    float alpha;
-    uint flags;
-};
 
 FN uint pack_snorm16(float x) { return uint(int(floor(clamp(x, -1.0f, 1.0f) * 32767.0f + 0.5f)) & 0xffff); }
 
@@ -155,44 +129,6 @@ FN TargetSurface unpack_reuse_surface(IN(ReuseSurface) s, uint features) {
         t.specular_normal = specular_normal(t.normal, t.geometric_normal, t.wo);
     }
     return t;
-}
-
-/// Its GGX lobe.
-FN vec3 target_specular(IN(TargetSurface) s, vec3 wi, float least) {
-    float cos_i = clamp(dot(wi, s.specular_normal), least, 1.0f);
-    float cos_o = clamp(dot(s.wo, s.specular_normal), least, 1.0f);
-    vec3 sum = s.wo + wi;
-    float squared = dot(sum, sum);
-    if (!(squared > 1.0e-12f)) {
-        return vec3(0.0f, 0.0f, 0.0f);
-    }
-    vec3 h = sum * inversesqrt(squared);
-    float cos_h = clamp(dot(h, s.specular_normal), 0.0f, 1.0f);
-    vec3 sine_h = cross(h, s.specular_normal);  // its length; 1 - cos_h^2 would cancel in narrow lobes
-    float a2 = s.alpha * s.alpha;
-    float t = dot(sine_h, sine_h) + cos_h * cos_h * a2;
-    float d = INV_PI * a2 / (t * t);
-    float masking_o = cos_i * sqrt(cos_o * cos_o * (1.0f - a2) + a2);
-    float masking_i = cos_o * sqrt(cos_i * cos_i * (1.0f - a2) + a2);
-    vec3 fresnel = fresnel_schlick(s.f0, vec3(s.f90, s.f90, s.f90), dot(s.wo, h));
-    return fresnel * (0.5f * d * cos_i / (masking_o + masking_i));
-}
-
-/// About f cos toward the unit direction wi: Lambert plus GGX, whatever the surface's own model.
-FN vec3 target_reflectance(IN(TargetSurface) s, vec3 wi) {
-    if (!(dot(wi, s.geometric_normal) > -TARGET_COS_MIN)) {
-        return vec3(0.0f, 0.0f, 0.0f);
-    }
-    float least = (s.flags & REUSE_SURFACE_FACETS) != 0u ? TARGET_COS_MIN_FACETS : TARGET_COS_MIN;
-    float cos_i = clamp(dot(wi, s.normal), least, 1.0f);
-    vec3 sum = s.diffuse * (INV_PI * cos_i) + target_specular(s, wi, least);
-    if ((s.flags & REUSE_SURFACE_MAPPED) != 0u) {
-        vec3 below = reflect_off(s.geometric_normal, wi);
-        if (dot(below, s.specular_normal) > 0.0f) {
-            sum += target_specular(s, below, least);  // what the lobe sends below the surface
-        }
-    }
-    return sum;
 }
 
 /// Whether two first vertices are alike enough for reuse to pay: near to one plane, facing alike. Depends on geometry alone, so it

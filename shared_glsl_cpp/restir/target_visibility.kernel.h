@@ -1,9 +1,9 @@
-// Whether a surface sees a light point, and whether the target asks (`--reuse-visibility target`). A pass that is compiled with
-// REUSE_WITHOUT_RAYS is for settings by which it does not, and holds no code for rays.
+// The target with its visibility: whether a surface sees a light point, and whether the target asks (`--reuse-visibility target`). A pass
+// that is compiled with REUSE_WITHOUT_RAYS serves settings under which the target does not ask, and holds no code for rays.
 #ifndef TARGET_VISIBILITY_KERNEL_H
 #define TARGET_VISIBILITY_KERNEL_H
 
-#include "lights/light_point.kernel.h"
+#include "lights/light.kernel.h"
 
 #ifdef REUSE_WITHOUT_RAYS
 
@@ -25,7 +25,7 @@ FN bool is_light_hidden(vec3 origin, IN(SeenLight) light, uint alpha_key) {
     return trace_any(origin, direction, light.distant ? INFINITE_DISTANCE : 0.9999f, alpha_key);
 }
 
-/// Whether it is to the target.
+/// Whether the target function treats the light point as occluded.
 FN bool is_light_occluded(vec3 origin, IN(SeenLight) light, IN(LightPoint) y, uint moment) {
     if (feature(FEATURE_MOTION) && moment == MUTANT(REUSE_CURRENT_OCCLUDERS, MOMENT_PREVIOUS, NONE)) {
         vec3 direction = light.distant ? light.direction : light.end - origin;
@@ -45,5 +45,12 @@ FN bool target_sees(vec3 origin, IN(SeenLight) light, IN(LightPoint) y, uint mom
 }
 
 #endif
+
+/// p̂ of a light point at a surface, among the lights and occluders of `moment`. Counts the rays it needs.
+FN float target_at(IN(TargetSurface) s, IN(LightPoint) y, uint moment, INOUT(uint) rays) {
+    SeenLight light = see_light_point(y, s.position, moment);
+    float target = unoccluded_target(s, light);
+    return target > TARGET_MIN && target_sees(s.position, light, y, moment, rays) ? target : 0.0f;
+}
 
 #endif

@@ -107,7 +107,7 @@ TEST_CASE("A reservoir's target is that of its point at its surface, after every
                     return;
                 }
                 const auto light = chain.kernel.see_light_point(reservoir.point, kept.position, shared::MOMENT_CURRENT);
-                const float target = chain.kernel.unoccluded_target(shared::unpack_reuse_surface(kept, ~0U), light);
+                const float target = shared::unoccluded_target(shared::unpack_reuse_surface(kept, ~0U), light);
                 wrong += std::abs(reservoir.target - target) <= 1e-6F * target ? 0 : 1;
                 ++checked;
             });
@@ -180,8 +180,8 @@ TEST_CASE("A picker that goes on from the sum over its clusters gives the densit
             return;
         }
         const auto surface = shared::unpack_reuse_surface(first.packed, ~0U);
-        const auto made = chain.kernel.begin_light_picker(surface);
-        const auto resumed = chain.kernel.resume_light_picker(surface, request);
+        const auto made = chain.kernel.begin_candidate_picker(surface);
+        const auto resumed = chain.kernel.resume_candidate_picker(surface, request);
         near += made.near > 0 ? 1 : 0;
         differs += made.close == resumed.close ? 0 : 1;
         for (std::uint32_t id = 0; id < chain.packed.constants.light_count; id += 7) {

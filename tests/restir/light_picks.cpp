@@ -39,7 +39,7 @@ TEST_CASE("Lights are picked as often as their density says, near and far") {
     const glm::vec3 beside = packed.emissive_triangles[7].vertex_0;
     for (const glm::vec3& position : {beside, beside + glm::vec3(0.1F, -0.3F, 0.2F), glm::vec3(0, 500, 0)}) {
         const glm::vec3 normal(0, position.y > 100 ? -1 : 1, 0);
-        const auto picker = kernel.begin_light_picker(surface_at(position, normal));
+        const auto picker = kernel.begin_candidate_picker(surface_at(position, normal));
         REQUIRE(picker.near == 4);
         constexpr std::uint32_t samples = 100000;
         std::vector<double> observed(lights, 0);
@@ -94,7 +94,7 @@ TEST_CASE("A dim lamp is found beside itself, though bright ones share its clust
         // A little in front of it, looking back.
         const glm::vec3 middle = light.vertex_0 + (light.edge_1 + light.edge_2) / 3.0F;
         const float aside = std::sqrt(light.double_area);
-        const auto picker = kernel.begin_light_picker(surface_at(middle + aside * light.front, -light.front));
+        const auto picker = kernel.begin_candidate_picker(surface_at(middle + aside * light.front, -light.front));
         dimmest = std::min(dimmest, light.pmf);
         INFO(id << ": by power " << 8 * light.pmf);
         CHECK(kernel.picks_of_light(picker, id) * light.pmf > 0.05F);
@@ -121,7 +121,7 @@ TEST_CASE("As many lights are picked near as asked for, from one on, the rest by
         Kernel kernel{packed, packed.constants, {{embree}}};
         CAPTURE(near);
         for (const glm::vec3& place : {packed.emissive_triangles[7].vertex_0, packed.punctual_lights[0].position - glm::vec3(0, 0.2F, 0)}) {
-            const auto picker = kernel.begin_light_picker(surface_at(place, {0, 1, 0}));
+            const auto picker = kernel.begin_candidate_picker(surface_at(place, {0, 1, 0}));
             CHECK(picker.near == near);
             CHECK(picker.by_power == 8 - near);
             CHECK((picker.sum > 0) == (near > 0));
@@ -156,7 +156,7 @@ TEST_CASE("A cluster's parts are told apart within two radii of it, if it has se
         const shared::LightCluster& whole = packed.light_clusters[cluster];
         for (const float radii : {0.0F, 1.9F, 2.1F}) {
             const glm::vec3 up(0, 1, 0);
-            const auto picker = kernel.begin_light_picker(surface_at(whole.center - radii * whole.radius * up, up));
+            const auto picker = kernel.begin_candidate_picker(surface_at(whole.center - radii * whole.radius * up, up));
             double sum = 0;
             for (std::uint32_t i = 0; i < shared::PARTS_PER_CLUSTER; ++i) {
                 sum += static_cast<double>(kernel.cluster_weight(picker, kernel.load_cluster_part(cluster, i)));
@@ -183,10 +183,10 @@ TEST_CASE("An emitter is within reach beside any of them, and none is far from a
     int far = 0;
     for (const shared::EmissiveTriangle& light : packed.emissive_triangles) {
         const glm::vec3 beside = light.vertex_0 + 0.5F * kernel.light_reach() * light.front;
-        far += kernel.begin_light_picker(surface_at(beside, -light.front)).close ? 0 : 1;
+        far += kernel.begin_candidate_picker(surface_at(beside, -light.front)).close ? 0 : 1;
     }
     CHECK(far == 0);
-    CHECK(!kernel.begin_light_picker(surface_at({0, 500, 0}, {0, -1, 0})).close);
+    CHECK(!kernel.begin_candidate_picker(surface_at({0, 500, 0}, {0, -1, 0})).close);
 }
 
 TEST_CASE("Materials are sampled for lights twice where their lobe is narrow, and where emitters are close, once or now and then") {
@@ -198,7 +198,7 @@ TEST_CASE("Materials are sampled for lights twice where their lobe is narrow, an
     packed.features |= shared::FEATURE_MIRRORS;
     const EmbreeScene embree(packed);
     Kernel kernel{packed, packed.constants, {{embree}}};
-    auto picker = kernel.begin_light_picker(surface_at(packed.emissive_triangles[7].vertex_0, {0, 1, 0}));
+    auto picker = kernel.begin_candidate_picker(surface_at(packed.emissive_triangles[7].vertex_0, {0, 1, 0}));
     const glm::vec3 white(1);
     for (const bool close : {false, true}) {
         picker.close = close;

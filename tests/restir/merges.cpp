@@ -63,7 +63,7 @@ Scene floor_from_above() {
 double target_at(Frame& frame, std::uint32_t surfaces, std::uint32_t index, const shared::LightPoint& point) {
     const shared::TargetSurface s = shared::unpack_reuse_surface(frame.kernel.load_reuse_surface(surfaces, index), ~0U);
     return static_cast<double>(
-        frame.kernel.unoccluded_target(s, frame.kernel.see_light_point(point, s.position, shared::MOMENT_CURRENT)));
+        shared::unoccluded_target(s, frame.kernel.see_light_point(point, s.position, shared::MOMENT_CURRENT)));
 }
 
 struct Merged {

@@ -43,6 +43,27 @@ TEST_CASE("GGX D equals its value in double precision down to alpha 1e-4") {
     CHECK(ggx_d(vec3(0.6f, 0.0f, -0.8f), 0.5f) == 0.0f);
 }
 
+TEST_CASE("GGX from cosines is GGX from directions") {
+    Uniforms u(13);
+    for (const double alpha : alphas) {
+        double worst = 0.0;
+        for (int k = 0; k < 100000; ++k) {
+            const auto a = static_cast<float>(alpha);
+            const vec3 o = direction_at(std::max(static_cast<double>(u.next()), 1e-3), 2.0 * M_PI * u.next());
+            const vec3 h = sample_ggx_visible_normal(o, a, vec2(float(u.next()), float(u.next())));
+            const vec3 i = 2.0f * dot(o, h) * h - o;
+            if (i.z < 1e-3f) {
+                continue;
+            }
+            const float expected = ggx_eval(o, i, h, a);
+            const float value = ggx_eval_of_cosines(o.z, i.z, h.z, h.x * h.x + h.y * h.y, a);
+            worst = std::max(worst, static_cast<double>(std::abs(value / expected - 1.0f)));
+        }
+        INFO("alpha " << alpha);
+        CHECK(worst < 5e-6);
+    }
+}
+
 TEST_CASE("GGX masking equals Heitz's Lambda in double precision") {
     for (const double alpha : alphas) {
         for (const double co : {1.0, 0.7, 0.1, 0.01, 1e-4, 1e-7}) {

@@ -1,0 +1,32 @@
+// What sampling a light gives to a path.
+#ifndef LIGHT_SAMPLE_H
+#define LIGHT_SAMPLE_H
+
+#include "language/compat.h"
+
+SHARED_BEGIN
+
+/// A point on a light as `reference` sees it.
+struct LightSample {
+    vec3 direction;  // unit, toward the light
+    vec3 radiance;   // arriving unoccluded; of a delta light: already divided by r², to be divided by pdf alone
+    float pdf;       // solid angle times pick; of a delta light: pick alone. 0: no light
+    bool delta;      // no other strategy can find it
+    bool distant;    // at infinity: no end point
+    vec3 end;        // where the shadow ray ends, offset from the light's surface
+};
+
+FN LightSample no_light() {
+    LightSample s;
+    s.direction = vec3(0.0f, 0.0f, 1.0f);
+    s.radiance = vec3(0.0f, 0.0f, 0.0f);
+    s.pdf = 0.0f;
+    s.delta = false;
+    s.distant = false;
+    s.end = vec3(0.0f, 0.0f, 0.0f);
+    return s;
+}
+
+SHARED_END
+
+#endif
