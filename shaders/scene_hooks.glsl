@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_buffer_reference : require
 
+#include "device_buffers.h"
 #include "dispatch.h"
 #include "geometry/hit.h"
 #include "wave.h"
@@ -47,54 +48,31 @@ bool feature(uint bit) { return (FEATURES & bit) != 0u; }
 SCENE_BUFFERS(DECLARE_REFERENCE)
 #undef DECLARE_REFERENCE
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer film_pixels_buffer { FilmPixel data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer film_moments_buffer { FilmMoments data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer film_first_hits_buffer { FilmFirstHit data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer first_vertices_buffer { FirstVertex data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer reservoirs_buffer { Reservoir data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer reuse_surfaces_buffer { ReuseSurface data[]; };
+#define ACCESS_writable
+#define ACCESS_read_only readonly
+
+#define DECLARE_REFERENCE(Type, name, alignment, access)                                                                 \
+    layout(buffer_reference, scalar, buffer_reference_align = alignment) ACCESS_##access buffer name##_buffer { Type data[]; };
+DEVICE_ARRAYS(DECLARE_REFERENCE)
+#undef DECLARE_REFERENCE
+
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer candidate_list_buffer {
     uvec3 command;  // indirect, of which x counts
     CandidateRequest entries[];
 };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer recorded_rays_buffer { RecordedRay data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ray_counters_buffer { RayCounters data; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer path_queries_buffer { PathQuery data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer path_vertices_buffer { PathVertexRecord data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer path_summaries_buffer { PathSummary data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer grouped_geometries_buffer { uvec2 data[]; };
-
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer wave_paths_buffer { WavePath data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer wave_first_hits_buffer { FirstHit data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer wave_queues_buffer { uint data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer wave_hits_buffer { Hit data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer wave_shadows_buffer { WaveShadow data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer wave_counts_buffer { WaveCounts data[]; };
 
 // Mirrored by vk_backend/memory/scene_addresses.h.
 layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
 #define DECLARE_ADDRESS(Type, name) name##_buffer name;
     SCENE_BUFFERS(DECLARE_ADDRESS)
 #undef DECLARE_ADDRESS
-    film_pixels_buffer film_pixels;
-    film_moments_buffer film_moments;
-    film_first_hits_buffer film_first_hits;
-    first_vertices_buffer first_vertices;
-    reservoirs_buffer reservoirs;
-    reuse_surfaces_buffer reuse_surfaces;
-    candidate_list_buffer candidate_list;
-    recorded_rays_buffer recorded_rays;
-    ray_counters_buffer ray_counters;
-    path_queries_buffer path_queries;
-    path_vertices_buffer path_vertices;
-    path_summaries_buffer path_summaries;
-    grouped_geometries_buffer grouped_geometries;
-    wave_paths_buffer wave_paths;
-    wave_first_hits_buffer wave_first_hits;
-    wave_queues_buffer wave_queues;
-    wave_hits_buffer wave_hits;
-    wave_shadows_buffer wave_shadows;
-    wave_counts_buffer wave_counts;
+#define DECLARE_ADDRESS(Type, name, alignment, access) name##_buffer name;
+    DEVICE_ARRAYS(DECLARE_ADDRESS)
+#undef DECLARE_ADDRESS
+#define DECLARE_ADDRESS(name) name##_buffer name;
+    DEVICE_BLOCKS(DECLARE_ADDRESS)
+#undef DECLARE_ADDRESS
 } addresses;
 
 layout(set = 0, binding = 2, scalar) uniform Constants { RenderConstants constants; };

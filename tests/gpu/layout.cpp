@@ -172,25 +172,12 @@ Offsets address_offsets() {
 #define ADD_OFFSET(Type, name) offsets[#name] = static_cast<std::uint32_t>(offsetof(SceneAddresses, name));
     SCENE_BUFFERS(ADD_OFFSET)
 #undef ADD_OFFSET
-    offsets["film_pixels"] = offsetof(SceneAddresses, film_pixels);
-    offsets["film_moments"] = offsetof(SceneAddresses, film_moments);
-    offsets["film_first_hits"] = offsetof(SceneAddresses, film_first_hits);
-    offsets["first_vertices"] = offsetof(SceneAddresses, first_vertices);
-    offsets["reservoirs"] = offsetof(SceneAddresses, reservoirs);
-    offsets["reuse_surfaces"] = offsetof(SceneAddresses, reuse_surfaces);
-    offsets["candidate_list"] = offsetof(SceneAddresses, candidate_list);
-    offsets["recorded_rays"] = offsetof(SceneAddresses, recorded_rays);
-    offsets["ray_counters"] = offsetof(SceneAddresses, ray_counters);
-    offsets["path_queries"] = offsetof(SceneAddresses, path_queries);
-    offsets["path_vertices"] = offsetof(SceneAddresses, path_vertices);
-    offsets["path_summaries"] = offsetof(SceneAddresses, path_summaries);
-    offsets["grouped_geometries"] = offsetof(SceneAddresses, grouped_geometries);
-    offsets["wave_paths"] = offsetof(SceneAddresses, wave_paths);
-    offsets["wave_first_hits"] = offsetof(SceneAddresses, wave_first_hits);
-    offsets["wave_queues"] = offsetof(SceneAddresses, wave_queues);
-    offsets["wave_hits"] = offsetof(SceneAddresses, wave_hits);
-    offsets["wave_shadows"] = offsetof(SceneAddresses, wave_shadows);
-    offsets["wave_counts"] = offsetof(SceneAddresses, wave_counts);
+#define ADD_OFFSET(Type, name, alignment, access) offsets[#name] = static_cast<std::uint32_t>(offsetof(SceneAddresses, name));
+    DEVICE_ARRAYS(ADD_OFFSET)
+#undef ADD_OFFSET
+#define ADD_OFFSET(name) offsets[#name] = static_cast<std::uint32_t>(offsetof(SceneAddresses, name));
+    DEVICE_BLOCKS(ADD_OFFSET)
+#undef ADD_OFFSET
     return offsets;
 }
 
