@@ -1,5 +1,5 @@
 // Elementary functions as polynomials: Vulkan's own may err by thousands of ulps, and differ from C++'s. Only +, -, *,
-// / and integer operations, so that both backends agree but for the division. Coefficients: minimax in relative error
+// /, sqrt and integer operations, so that both backends agree but for the division and sqrt. Coefficients: minimax in relative error
 // (Remez exchange), rounded to fp32. Bounds were measured against double over the stated range, in ulps of the exact
 // result.
 #ifndef ELEMENTARY_H
