@@ -1,9 +1,9 @@
 #include "stability_cases.h"
 
-#include <chrono>
 #include <cmath>
 
 #include "case_parts.h"
+#include "clock.h"
 
 namespace diptych::stability {
 
@@ -38,7 +38,7 @@ std::vector<double> points_of(const Range& range, Effort effort) {
 }
 
 CaseResult run_case(const Case& c, Backend& backend, Effort effort) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     CaseResult result;
     for (const double parameter : points_of(c.range, effort)) {
         const Measured m = c.run(backend, parameter, effort);
@@ -52,7 +52,7 @@ CaseResult run_case(const Case& c, Backend& backend, Effort effort) {
         result.points.push_back({parameter, m});
     }
     result.passes = result.worst <= c.bound && result.nonfinite == 0 && result.evaluations > 0;
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.seconds = watch.seconds();
     return result;
 }
 

@@ -11,8 +11,7 @@
 namespace diptych::app {
 
 StepLine::StepLine(int steps)
-    : steps_(steps), terminal_(isatty(STDERR_FILENO) == 1), next_(terminal_ ? 0 : first_sparse_line),
-      start_(std::chrono::steady_clock::now()) {}
+    : steps_(steps), terminal_(isatty(STDERR_FILENO) == 1), next_(terminal_ ? 0 : first_sparse_line) {}
 
 StepLine::~StepLine() {
     if (terminal_ && begun_ > 0) {
@@ -22,7 +21,7 @@ StepLine::~StepLine() {
 }
 
 void StepLine::begin(const std::string& what) {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double seconds = watch_.seconds();
     const int done = begun_++;
     if (seconds < next_) {
         return;

@@ -1,8 +1,9 @@
 // How a command of many steps is getting on, in one line on stderr.
 #pragma once
 
-#include <chrono>
 #include <string>
+
+#include "clock.h"
 
 namespace diptych::app {
 
@@ -23,7 +24,7 @@ private:
     int begun_ = 0;
     bool terminal_;
     double next_;
-    std::chrono::steady_clock::time_point start_;
+    Stopwatch watch_;
 };
 
 }  // namespace diptych::app

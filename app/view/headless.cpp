@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
 #include <mutex>
 
+#include "clock.h"
 #include "session/backend.h"
 #include "commands/command.h"
 #include "error.h"
@@ -25,10 +25,6 @@ namespace {
 
 constexpr double turn_a_frame = 0.0175;  // radians, about a degree
 constexpr std::uint32_t unmeasured = 8;  // frames in which the panels learn their speed
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Frames of one kind.
 struct FrameTimes {
@@ -135,7 +131,7 @@ void HeadlessView::await_shots() {
 
 void HeadlessView::frame(bool moving, FrameTimes* times) {
     const std::shared_ptr<const PanelShot> before = seen(main_panel());
-    const double begin = now();
+    const double begin = now_seconds();
     ViewState& state = loop_->state();
     state.interacting = moving;
     if (moving) {
@@ -155,7 +151,7 @@ void HeadlessView::frame(bool moving, FrameTimes* times) {
     if (times != nullptr) {
         const PanelShot& shot = *seen(main_panel());
         const bool same_picture = !moving && before && before->version == shot.version && before->spp < shot.spp;
-        times->milliseconds.push_back(1000 * (now() - begin));
+        times->milliseconds.push_back(1000 * (now_seconds() - begin));
         times->samples.push_back(shot.spp - (same_picture ? before->spp : 0));
         times->divisors.push_back(shot.divisor);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "clock.h"
 #include "error.h"
 #include "render/seeds.h"
 #include "console/report.h"
@@ -16,10 +17,6 @@ namespace diptych::app {
 namespace {
 
 constexpr double speed_share = 0.5;  // of the latest measurement in what is known
-
-double between(std::chrono::steady_clock::time_point begin, std::chrono::steady_clock::time_point end) {
-    return std::chrono::duration<double>(end - begin).count();
-}
 
 double blended(double known, double measured) {
     return known > 0 ? (1 - speed_share) * known + speed_share * measured : measured;
@@ -44,9 +41,9 @@ PanelEngine::PanelEngine(std::string backend, std::uint32_t seed_offset, Rendere
     shot_.backend = std::move(backend);
 }
 
-void PanelEngine::Pace::spent(Clock::time_point begin, Clock::time_point end) {
-    const double pause = std::max(interval - between(begin, end), between(begin, end) / share);
-    next = end + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(pause));
+void PanelEngine::Pace::spent(double begin, double end) {
+    const double pause = std::max(interval - (end - begin), (end - begin) / share);
+    next = end + pause;
 }
 
 template <class Work>
@@ -79,7 +76,7 @@ void PanelEngine::apply(const ViewJob& job) {
         return;
     }
     guarded([&] {
-        const Clock::time_point begin = Clock::now();
+        const double begin = now_seconds();
         Change level = applied_ && session_ ? invalidation(*applied_, job.state) : Change::scene;
         const RenderSettings& wanted = job.state.request.settings;
         if (level == Change::scene) {
@@ -123,7 +120,7 @@ void PanelEngine::apply(const ViewJob& job) {
         applied_ = job.state;
         spoiled_ = false;
         if (level == Change::view || level == Change::moment) {
-            speed_.overhead_seconds = blended(speed_.overhead_seconds, between(begin, Clock::now()));
+            speed_.overhead_seconds = blended(speed_.overhead_seconds, now_seconds() - begin);
         }
         aim_dispatches(session_->renderer(), job.frame_seconds / 2);
         const bool knows_picture = level == Change::nothing && shot_.figures.version == shot_.version;
@@ -157,7 +154,7 @@ void PanelEngine::open_scene() {
 void PanelEngine::begin_picture() {
     samples_ = 0;
     looked_rays_ = 0;
-    looked_at_ = Clock::now();
+    looked_at_ = now_seconds();
     passes_before_ = session_->renderer().pass_times();
     passes_from_ = 0;
 }
@@ -172,19 +169,16 @@ void PanelEngine::advance(const std::atomic<bool>& cancel) {
         // only the first looks back to the frame before.
         const bool one = first && (!job_->moving || session_->looks_back());
         const std::uint32_t count = one ? 1 : std::min(budget.samples, samples_left());
-        const Clock::time_point begin = Clock::now();
+        const double begin = now_seconds();
         session_->render(samples_, count, cancel);
         if (cancel) {
             spoiled_ = true;
             return;
         }
         samples_ += count;
-        learn(count, between(begin, Clock::now()));
+        learn(count, now_seconds() - begin);
         publish(first);
-        resumes_ = Clock::now();
-        if (job_->moving) {
-            resumes_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(job_->frame_seconds));
-        }
+        resumes_ = now_seconds() + (job_->moving ? job_->frame_seconds : 0);
     });
 }
 
@@ -197,7 +191,7 @@ void PanelEngine::learn(std::uint32_t samples, double seconds) {
 }
 
 void PanelEngine::publish(bool first) {
-    const Clock::time_point now = Clock::now();
+    const double now = now_seconds();
     const RenderSettings of_film = settings();
     shot_.device_film = device_film_of(session_->renderer());
     shot_.width = of_film.width;
@@ -215,12 +209,12 @@ void PanelEngine::publish(bool first) {
 }
 
 void PanelEngine::look() {
-    const Clock::time_point begin = Clock::now();
+    const double begin = now_seconds();
     shot_.film = std::make_shared<const Film>(session_->renderer().film());
-    host_films_.spent(begin, Clock::now());
+    host_films_.spent(begin, now_seconds());
     if (shot_.device_film || looks_.due(begin)) {
         shot_.figures = film_figures(*shot_.film, job_->version, samples_);
-        const double seconds = between(looked_at_, begin);
+        const double seconds = begin - looked_at_;
         shot_.rays_per_second = static_cast<double>(shot_.figures.rays - looked_rays_) / std::max(seconds, 1e-9);
         looked_rays_ = shot_.figures.rays;
         looked_at_ = begin;
@@ -232,9 +226,9 @@ void PanelEngine::look() {
         }
         passes_before_ = session_->renderer().pass_times();
         passes_from_ = samples_;
-        looks_.spent(begin, Clock::now());
+        looks_.spent(begin, now_seconds());
     }
-    device_looks_.spent(begin, Clock::now());
+    device_looks_.spent(begin, now_seconds());
 }
 
 void PanelEngine::say_busy(const char* what) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,23 +43,22 @@ public:
     /// for the next job to clear.
     void advance(const std::atomic<bool>& cancel);
 
-    /// When the next samples are due: at once, but for what moves a frame later, as another job will have come by then.
-    std::chrono::steady_clock::time_point resumes() const { return resumes_; }
+    /// When the next samples are due, in now_seconds: at once, but for what moves a frame later, as another job will have
+    /// come by then.
+    double resumes() const { return resumes_; }
 
     RecordedPath record_path(shared::PathQuery query, std::uint32_t seed);
     KeptFilm film();
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     /// When a costly look at something is next due: at most so often, and for at most such a share of the time.
     struct Pace {
         double interval;  // seconds
         double share;
-        Clock::time_point next{};
+        double next = 0;
 
-        bool due(Clock::time_point now) const { return now >= next; }
-        void spent(Clock::time_point begin, Clock::time_point end);
+        bool due(double now) const { return now >= next; }
+        void spent(double begin, double end);
     };
 
     template <class Work>
@@ -86,13 +84,13 @@ private:
     bool relearns_ = false;  // the speed is that of other settings
     int divisor_ = 1;
     std::uint32_t samples_ = 0;  // of the picture
-    Clock::time_point resumes_{};
+    double resumes_ = 0;  // in now_seconds
     bool spoiled_ = false;             // some pixels have samples of a chunk that was cut short
     Pace host_films_{1.0 / 30, 0.25};  // of renderers without a film on a device
     Pace looks_{0.25, 0.05};           // at figures
     Pace device_looks_{1, 0.02};
     std::uint64_t looked_rays_ = 0;
-    Clock::time_point looked_at_{};
+    double looked_at_ = 0;
     std::vector<PassTime> passes_before_;
     std::uint32_t passes_from_ = 0;
 };

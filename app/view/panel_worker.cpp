@@ -1,8 +1,10 @@
 #include "view/panel_worker.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
+#include "clock.h"
 #include "error.h"
 #include "view/panel_engine.h"
 
@@ -122,7 +124,7 @@ void PanelWorker::run(RendererFactory factory) {
     while (true) {
         const auto called = [&] { return stop_ || waiting_ || factory_ || !requests_.empty(); };
         if (engine.wants_samples()) {
-            wake_.wait_until(lock, engine.resumes(), called);
+            wake_.wait_for(lock, std::chrono::duration<double>(engine.resumes() - now_seconds()), called);
         } else {
             wake_.wait(lock, called);
         }

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
 #include "backend/cpu_renderer.h"
+#include "clock.h"
 #include "image/tonemap_image.h"
 #include "device/validation.h"
 #include "renderer/vulkan_renderer.h"
@@ -33,10 +33,6 @@ RendererFactory cpu_factory(int threads) {
 }
 
 }  // namespace
-
-double OpenView::seconds_now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::string OpenView::title_of(const std::string& scene) {
     return "diptych – " + std::filesystem::path(scene).filename().string();
@@ -90,11 +86,11 @@ void OpenView::recover() {
 }
 
 void OpenView::say(const std::string& text) {
-    show_message(interface_, text, false, seconds_now());
+    show_message(interface_, text, false, now_seconds());
 }
 
 void OpenView::report(const std::string& text) {
-    show_message(interface_, text, true, seconds_now());
+    show_message(interface_, text, true, now_seconds());
     log_.write("error", {{"text", text}});
 }
 

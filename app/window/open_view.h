@@ -32,7 +32,6 @@ public:
     bool run();
 
 private:
-    static double seconds_now();
     static std::string title_of(const std::string& scene);
     Panel main_panel() const;
     void open_device();

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "clock.h"
 #include "error.h"
 #include "console/interrupt.h"
 #include "view/invalidation.h"
@@ -24,7 +25,7 @@ constexpr double longest_wait = 0.25;  // seconds between frames while nothing h
 
 bool OpenView::run() {
     const InterruptGuard interrupt;
-    last_frame_ = seconds_now();
+    last_frame_ = now_seconds();
     while (true) {
         const double passed = await_frame();
         if (input_.closed || interrupt.requested()) {
@@ -57,12 +58,12 @@ bool OpenView::run() {
 /// seconds since the last.
 double OpenView::await_frame() {
     const double due = last_frame_ + 1 / options_.frames_per_second;
-    std::this_thread::sleep_for(std::chrono::duration<double>(due - seconds_now()));
+    std::this_thread::sleep_for(std::chrono::duration<double>(due - now_seconds()));
     const bool at_rest = !hand_.moving() && !state().animation.playing && !news_ && frames_owed_ == 0;
     read_input(at_rest ? longest_wait : 0);
     news_ = false;
     frames_owed_ = input_.any ? 3 : std::max(frames_owed_ - 1, 0);
-    const double now = seconds_now();
+    const double now = now_seconds();
     const double passed = now - last_frame_;
     frame_seconds_ += (passed - frame_seconds_) * std::min(1.0, passed / 0.5);
     last_frame_ = now;
@@ -135,7 +136,7 @@ InterfaceFacts OpenView::facts() const {
     facts.legend = legend_;
     facts.frames_per_second = frame_seconds_ > 0 ? 1 / frame_seconds_ : 0;
     facts.loading = loop_->loading();
-    facts.now = seconds_now();
+    facts.now = now_seconds();
     return facts;
 }
 

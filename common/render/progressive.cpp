@@ -1,10 +1,10 @@
 #include "render/progressive.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "clock.h"
 #include "error.h"
 #include "render/film_statistics.h"
 
@@ -20,10 +20,6 @@ constexpr double look_share = 0.02;
 // Of a time limit, left to the last batch. Those before it take half of what is left: then a machine that suddenly has
 // half its speed is noticed in time.
 constexpr double last_share = 0.02;
-
-double steady_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::uint32_t next_batch(const ProgressiveTarget& target, std::uint32_t done, double seconds, std::uint32_t last_batch,
                          double last_seconds, std::uint64_t look_at) {
@@ -116,7 +112,7 @@ private:
 
 ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarget& target,
                                        const std::atomic<bool>& cancel, const ProgressiveHooks& hooks) {
-    const std::function<double()> now = hooks.now ? hooks.now : steady_seconds;
+    const std::function<double()> now = hooks.now ? hooks.now : now_seconds;
     const Film before = renderer.film();
     FilmWatch watch(now);
     ErrorTarget error(target.relmse);

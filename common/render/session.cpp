@@ -1,21 +1,13 @@
 #include "render/session.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
+#include "clock.h"
 #include "error.h"
 #include "pose/pose.h"
 
 namespace diptych {
-
-namespace {
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-}  // namespace
 
 Session::Session(const Scene& scene, const RenderSettings& settings, MakeRenderer make, SessionHooks hooks)
     : source_(&scene), make_(std::move(make)), hooks_(std::move(hooks)), settings_(settings) {
@@ -69,9 +61,9 @@ void Session::pack_at_rest() {
 
 void Session::pack_anew() {
     say("packing the scene");
-    const double begin = now();
+    const double begin = now_seconds();
     pack_at_rest();
-    pack_seconds_ = now() - begin;
+    pack_seconds_ = now_seconds() - begin;
 }
 
 Change Session::change_to(const Moment& moment, const RenderSettings& settings) const {
@@ -85,7 +77,7 @@ void Session::show(const Moment& moment, std::optional<std::uint32_t> seed) {
     }
     const bool moved_before = moment_.seconds.has_value();
     moment_ = moment;
-    const double begin = now();
+    const double begin = now_seconds();
     double packed_at = begin;
     if (change >= Change::view) {
         if (moved_before && !moment.seconds) {
@@ -97,7 +89,7 @@ void Session::show(const Moment& moment, std::optional<std::uint32_t> seed) {
         } else {
             pack_moment(*own_, settings_, *packed_);
         }
-        packed_at = now();
+        packed_at = now_seconds();
         renderer_->move_to(*packed_);
     } else {
         settle();  // a chain's next picture stands where this one does
@@ -112,14 +104,14 @@ void Session::show(const Moment& moment, std::optional<std::uint32_t> seed) {
     begin_picture(goes_on);
     unsettled_ = chained_ && settings_.moves;
     pack_seconds_ = packed_at - begin;
-    move_seconds_ = now() - packed_at;
+    move_seconds_ = now_seconds() - packed_at;
 }
 
 void Session::set(const RenderSettings& settings, const Moment& moment) {
     const bool moved_before = moment_.seconds.has_value();
     settings_ = settings;
     moment_ = moment;
-    const double begin = now();
+    const double begin = now_seconds();
     if (own_ && moved_before && !moment.seconds) {
         *own_ = *source_;
     }
@@ -135,7 +127,7 @@ void Session::set(const RenderSettings& settings, const Moment& moment) {
         }
         pack_at_rest();
     }
-    pack_seconds_ = now() - begin;
+    pack_seconds_ = now_seconds() - begin;
     chained_ = own_ && chains_frames(settings_) && renderer_->backend() != "oracle";
     begin_picture(false);
 }

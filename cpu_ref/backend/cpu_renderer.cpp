@@ -3,12 +3,12 @@
 #include <tbb/blocked_range2d.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 
 #include "backend/path_batch.h"
 #include "backend/path_recording.h"
 #include "backend/resampling_stages.h"
+#include "clock.h"
 #include "parallel.h"
 
 namespace diptych {
@@ -24,18 +24,12 @@ constexpr std::uint32_t diffuse_features = shared::FEATURE_EMISSIVE | shared::FE
                                            shared::FEATURE_LIGHT_SAMPLING | shared::FEATURE_LATER_VERTICES;
 constexpr std::uint32_t plain_features = diffuse_features | shared::FEATURE_GGX;
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 class CpuRenderer final : public Renderer {
 public:
     CpuRenderer(const PackedScene& packed, int threads)
         : packed_(&packed), constants_(packed.constants), arena_(threads > 0 ? threads : tbb::task_arena::automatic),
-          start_(Clock::now()), scene_(run_in(arena_, [&] { return std::make_unique<EmbreeScene>(packed); })) {
-        build_seconds_ = seconds_since(start_);
+          scene_(run_in(arena_, [&] { return std::make_unique<EmbreeScene>(packed); })) {
+        build_seconds_ = building_.seconds();
         lay_out_films();
     }
 
@@ -53,7 +47,7 @@ public:
     }
 
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
-        const Clock::time_point start = Clock::now();
+        const Stopwatch watch;
         const std::uint32_t step = resamples() ? 1 : samples_a_slice;
         for (std::uint32_t done = 0; done < count && !cancel; done += step) {
             if (resamples()) {
@@ -62,7 +56,7 @@ public:
                 accumulate(film_, first + done, std::min(step, count - done), &cancel);
             }
         }
-        seconds_ += seconds_since(start);
+        seconds_ += watch.seconds();
     }
 
     void restart(std::uint32_t seed) override {
@@ -195,7 +189,7 @@ private:
     /// One sample of every pixel, pass by pass. A frame is not cut short, or its reservoirs would be of two frames.
     void render_frame(Film& film, std::uint32_t frame) {
         for (const ResamplingStep& step : schedule_.next_frame(frame)) {
-            const Clock::time_point start = Clock::now();
+            const Stopwatch watch;
             for_tiles([&](int tile_x, int tile_y) {
                 shared::CpuKernel<PlainTracer, ~0U> kernel{*packed_, constants_, {*scene_}, &reuse_};
                 for_pixels(film, tile_x, tile_y, [&](shared::uvec2 pixel, FilmEntry entry) {
@@ -207,7 +201,7 @@ private:
                     }
                 });
             });
-            passes_[step.place].seconds += seconds_since(start);
+            passes_[step.place].seconds += watch.seconds();
             if (hook_) {
                 hook_(step, std::span(reuse_.reservoirs).subspan(resulting_set(step) * reuse_.pixels, reuse_.pixels));
             }
@@ -243,7 +237,7 @@ private:
     const PackedScene* packed_;
     shared::RenderConstants constants_;
     mutable tbb::task_arena arena_;
-    Clock::time_point start_;
+    Stopwatch building_;
     std::unique_ptr<EmbreeScene> scene_;
     Film film_;
     ResamplingFilms reuse_;
@@ -276,10 +270,10 @@ TraversalBench CpuRenderer::bench_traversal(std::uint32_t samples) {
     std::vector<double> bare;
     std::atomic<std::uint64_t> hits{0};  // keeps the compiler from dropping the queries
     for (int i = 0; i < repeats; ++i) {
-        Clock::time_point start = Clock::now();
+        Stopwatch watch;
         accumulate(scratch, 0, samples, nullptr);
-        integrator.push_back(seconds_since(start));
-        start = Clock::now();
+        integrator.push_back(watch.seconds());
+        watch = Stopwatch();
         for_tiles([&](int x, int y) {
             std::uint64_t found = 0;
             for (const TracedRay& ray : of_tile(x, y)) {
@@ -290,7 +284,7 @@ TraversalBench CpuRenderer::bench_traversal(std::uint32_t samples) {
             }
             hits += found;
         });
-        bare.push_back(seconds_since(start));
+        bare.push_back(watch.seconds());
     }
     std::sort(integrator.begin(), integrator.end());
     std::sort(bare.begin(), bare.end());

@@ -2,20 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <thread>
 
+#include "clock.h"
 #include "error.h"
 
 namespace diptych {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// A double as the film's pair of floats.
 void split(const glm::dvec3& value, glm::vec3& high, glm::vec3& low) {
@@ -76,7 +70,7 @@ public:
           wanted_threads_(threads),
           threads_(threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency())) {
         begin();
-        costs_.build_seconds = seconds_since(start_);
+        costs_.build_seconds = building_.seconds();
         costs_.bytes = oracle_->bytes();
         costs_.acceleration_bytes = oracle_->acceleration_bytes();
     }
@@ -86,9 +80,9 @@ public:
     RendererCosts costs() const override { return costs_; }
 
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
-        const Clock::time_point start = Clock::now();
+        const Stopwatch watch;
         oracle_->render(first, count, cancel);
-        seconds_ += seconds_since(start);
+        seconds_ += watch.seconds();
     }
 
     void restart(std::uint32_t seed) override {
@@ -123,7 +117,7 @@ public:
 private:
     void begin() { oracle_ = std::make_unique<Oracle>(scene_, oracle_settings_, wanted_threads_); }
 
-    Clock::time_point start_ = Clock::now();
+    Stopwatch building_;
     const Scene& scene_;
     RenderSettings settings_;
     OracleSettings oracle_settings_;

@@ -1,3 +1,4 @@
+#include "clock.h"
 #include "device/timed_queue.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ void TimedQueue::submit(std::uint64_t work, std::span<const TimedPart> parts) {
     for (const TimedPart& part : parts) {
         slot.labels.push_back(part.label);
     }
-    slot.submitted = Clock::now();
+    slot.submitted = now_seconds();
     slot.commands.submit([&](Recorder& recorder) {
         const bool timed = gpu_.tick_seconds > 0;
         const vk::raii::CommandBuffer& commands = recorder;
@@ -65,8 +66,8 @@ void TimedQueue::finish(Slot& slot) {
         return;
     }
     slot.commands.wait();
-    const Clock::time_point end = Clock::now();
-    double elapsed = std::chrono::duration<double>(end - std::max(slot.submitted, last_end_)).count();
+    const double end = now_seconds();
+    double elapsed = end - std::max(slot.submitted, last_end_);
     last_end_ = end;
     if (gpu_.tick_seconds > 0) {
         const auto stamps = static_cast<std::uint32_t>(slot.labels.size()) + 1;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -41,13 +40,12 @@ public:
     void forget_labels() { by_label_.clear(); }
 
 private:
-    using Clock = std::chrono::steady_clock;
     struct Slot {
         CommandSlot commands;
         vk::raii::QueryPool queries;
         std::uint64_t work = 0;
         std::vector<std::size_t> labels;  // of its parts
-        Clock::time_point submitted;
+        double submitted = 0;  // by now_seconds
     };
 
     Slot make_slot() const;
@@ -59,7 +57,7 @@ private:
     std::size_t next_ = 0;
     double seconds_ = 0;
     std::vector<double> by_label_;
-    Clock::time_point last_end_;
+    double last_end_ = 0;  // by now_seconds
 };
 
 }  // namespace diptych

@@ -1,20 +1,10 @@
 // Other settings of the same scene: what they do not touch stays on the device.
-#include <chrono>
 
+#include "clock.h"
 #include "error.h"
 #include "renderer/path_renderer.h"
 
 namespace diptych {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 // From here to the last line nothing is bound: where memory runs out midway, the renderer refuses to render until it
 // has been given settings that fit.
 void PathRenderer::reconfigure(const PackedScene& packed) {
@@ -29,18 +19,18 @@ void PathRenderer::reconfigure(const PackedScene& packed) {
     bindings_ = Bindings();
     constants_ = packed.constants;
     features_ = packed.features;
-    const Clock::time_point start = Clock::now();
+    const Stopwatch building;
     in_context("uploading what differs of the scene", [&] { replace_scene(*gpu_, packed, scene_); });
     in_context("building acceleration structures", [&] { replace_structures_of(packed); });
     in_context("making the film", [&] { replace_film(); });
-    costs_.build_seconds += seconds_since(start);
+    costs_.build_seconds += building.seconds();
 
-    const Clock::time_point compile_start = Clock::now();
+    const Stopwatch compiling;
     in_context("setting up pipelines", [&] {
         choose_pipelines();
         bind();
     });
-    costs_.compile_seconds += seconds_since(compile_start);
+    costs_.compile_seconds += compiling.seconds();
     schedule_ = ResamplingSchedule(constants_);
     speed_ = SpeedEstimate(dispatch_seconds_);
     recording_speed_.reset();

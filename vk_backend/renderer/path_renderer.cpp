@@ -1,17 +1,13 @@
 #include "renderer/path_renderer.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "clock.h"
 #include "passes/pass_table.h"
 #include "shader_binaries.h"
 
 namespace diptych {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 InstanceGroups chosen_groups(const Gpu& gpu, const PackedScene& packed, Grouping grouping) {
     const bool on_cpu = gpu.physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
@@ -55,7 +51,7 @@ PathRenderer::PathRenderer(const PackedScene& packed, const VulkanOptions& optio
 PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, const PathRendererOptions& changes)
     : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes),
       schedule_(packed.constants) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch building;
     upkeep_ = std::make_unique<CommandRing>(*gpu_);
     in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
     in_context("building acceleration structures", [&] { build_structures(packed); });
@@ -65,10 +61,10 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
         replace_waves();
         resampling_ = std::make_shared<ResamplingMemory>(make_resampling_memory(*gpu_, constants_));
     });
-    costs_.build_seconds = seconds_since(start);
+    costs_.build_seconds = building.seconds();
     count_bytes();
 
-    const auto compile_start = std::chrono::steady_clock::now();
+    const Stopwatch compiling;
     in_context("setting up pipelines", [&] {
         layout_ = make_pipeline_layout(*gpu_);
         choose_pipelines();
@@ -76,7 +72,7 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
         queue_ = std::make_unique<TimedQueue>(
             *gpu_, [this](std::uint64_t work, double seconds) { speed_.learn(work, seconds); });
     });
-    costs_.compile_seconds = seconds_since(compile_start);
+    costs_.compile_seconds = compiling.seconds();
 }
 
 void PathRenderer::build_structures(const PackedScene& packed) {

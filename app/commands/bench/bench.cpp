@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <optional>
 
+#include "clock.h"
 #include "commands/arguments/arguments.h"
 #include "commands/command.h"
 #include "error.h"
@@ -94,10 +94,8 @@ void measure(Entry& entry, std::uint32_t spp) {
 }
 
 void warm_up(Entry& entry, std::uint32_t spp) {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point end =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(warm_up_seconds));
-    while (entry.next_frame < least_warm_up || (entry.next_frame < most_warm_up && Clock::now() < end)) {
+    const Stopwatch watch;
+    while (entry.next_frame < least_warm_up || (entry.next_frame < most_warm_up && watch.seconds() < warm_up_seconds)) {
         measure(entry, spp);
     }
     entry.frame_seconds.clear();

@@ -3,10 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <bit>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 
+#include "clock.h"
 #include "commands/command.h"
 #include "commands/converge/page.h"
 #include "commands/converge/pictures.h"
@@ -243,9 +243,9 @@ int run_converge(ConvergeOptions options) {
         options.arguments.size = fmt::format("{}x{}", image.width, image.height);
     }
     check_converge_options(options);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch loading;
     const Scene scene = prepare_scene(options.arguments);
-    const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double load_seconds = loading.seconds();
     const std::vector<Method> methods = plan_methods(options);
     claim_folder(options, plan_to_json(options, methods));
     bool whole = false;

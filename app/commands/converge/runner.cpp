@@ -1,8 +1,8 @@
 #include "commands/converge/runner.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "clock.h"
 #include "session/open_session.h"
 
 namespace diptych::app {
@@ -11,10 +11,6 @@ namespace {
 
 constexpr double warm_seconds = 0.2;
 constexpr std::uint32_t most_spp = 1U << 24U;
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 }  // namespace
 
@@ -42,8 +38,8 @@ void MethodRunner::warm_up(Entry& entry, const std::atomic<bool>& cancel) {
     if (entry.warm) {
         return;
     }
-    const double begin = now();
-    for (std::uint32_t i = 0; i < 1024 && !cancel && (i == 0 || now() - begin < warm_seconds); ++i) {
+    const double begin = now_seconds();
+    for (std::uint32_t i = 0; i < 1024 && !cancel && (i == 0 || now_seconds() - begin < warm_seconds); ++i) {
         entry.session->render(i, 1, cancel);
     }
     entry.warm = true;
@@ -68,9 +64,9 @@ bool MethodRunner::run(std::uint32_t seed, const std::vector<std::uint32_t>& cou
             done = 0;
         }
         const double device_before = at_work.session->renderer().device_seconds();
-        const double wall_before = now();
+        const double wall_before = now_seconds();
         at_work.session->render(done, count - done, cancel);
-        wall_seconds += now() - wall_before;
+        wall_seconds += now_seconds() - wall_before;
         device_seconds += at_work.session->renderer().device_seconds() - device_before;
         if (cancel) {
             return false;

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
+#include "clock.h"
 #include "commands/command.h"
 #include "error.h"
 #include "image/figures.h"
@@ -45,7 +45,7 @@ std::vector<shared::PathQuery> list_paths(std::uint64_t first, std::size_t count
 
 PairedRun run_one(const Scene& scene, RenderSettings settings, const PairArguments& pair, const PairedOptions& options,
                   Image& differing) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     std::vector<Session> sessions = open_sessions(scene, settings, pair);
     PairedRun run;
     run.integrator = settings.integrator;
@@ -70,7 +70,7 @@ PairedRun run_one(const Scene& scene, RenderSettings settings, const PairArgumen
         }
     }
     run.report = test.report();
-    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    run.seconds = watch.seconds();
     return run;
 }
 

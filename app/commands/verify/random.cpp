@@ -5,9 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
+#include "clock.h"
 #include "session/backend.h"
 #include "commands/command.h"
 #include "error.h"
@@ -356,7 +356,7 @@ int verify_random(const VerifyOptions& options) {
     const Renderers renderers = make_renderers(options, backends);
     const JudgeOptions judged_with = judge_options(options);
     const ScratchFolder scratch;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     RandomReport report;
     const InterruptGuard interrupt;
     {
@@ -375,7 +375,7 @@ int verify_random(const VerifyOptions& options) {
     report.oracle_power = reached_power(report.pairs, "cpu", judged_with.half_width_percent);
     report.common_power = reached_power(report.pairs, "vulkan", judged_with.half_width_percent);
     report.verdict = report.refusals.empty() ? verdict_of(report.pairs, judged_with) : Verdict::fail;
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.seconds = watch.seconds();
     print_report(options, judged_with, report);
     if (report.interrupted) {
         return exit_interrupted;

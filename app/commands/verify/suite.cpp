@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <future>
+
+#include "clock.h"
 
 namespace diptych::app {
 
@@ -17,10 +18,6 @@ constexpr std::uint32_t second_stage_spp = 4;  // times the first's
 constexpr double second_stage_alpha = 0.1;     // likewise
 constexpr double first_stage_time = 0.2;       // leaves the second stage its four times as many samples
 constexpr std::uint32_t most_spp = 1U << 30U;
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 struct Stage {
     std::vector<PairName> pairs;
@@ -118,7 +115,7 @@ std::uint32_t whole_chains(std::uint32_t samples, const VerifyOptions& options) 
 
 bool render_stage(const Stage& stage, Sides& sides, const VerifyOptions& options, const std::atomic<bool>& cancel,
                   const RunHook& hook) {
-    const double start = now();
+    const double start = now_seconds();
     if (stage.seconds == 0) {
         return sides.extend(stage.spp, stage.reference_spp, cancel, hook);
     }
@@ -127,7 +124,7 @@ bool render_stage(const Stage& stage, Sides& sides, const VerifyOptions& options
         if (!sides.extend(samples, samples, cancel, hook)) {
             return false;
         }
-        const double rendering = now() - start;
+        const double rendering = now_seconds() - start;
         const std::vector<TileComparison> comparisons =
             compare(stage.pairs, sides, options.common_seeds, {.resamplings = 0});  // for their widths
         if (std::all_of(comparisons.begin(), comparisons.end(),
@@ -135,7 +132,7 @@ bool render_stage(const Stage& stage, Sides& sides, const VerifyOptions& options
             break;
         }
         samples =
-            whole_chains(next_extension(sides.all.front().spp(), rendering, start + stage.seconds - now()), options);
+            whole_chains(next_extension(sides.all.front().spp(), rendering, start + stage.seconds - now_seconds()), options);
         for (const VerifySide& side : sides.all) {  // as many as there are seeds for
             samples = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples, side.most_spp() - side.spp()));
         }
@@ -209,7 +206,7 @@ bool run_second_stage(Stage stage, const Scene& scene, const VerifyOptions& opti
 std::optional<SuiteResult> run_suite(const VerifyOptions& options, const std::vector<PairName>& pairs,
                                      const Scene& scene, std::uint32_t seed, const std::atomic<bool>& cancel,
                                      const RunHook& hook) {
-    const double start = now();
+    const double start = now_seconds();
     const RenderSettings& settings = options.arguments.request.settings;
     Stage stage;
     stage.pairs = pairs;
@@ -228,7 +225,7 @@ std::optional<SuiteResult> run_suite(const VerifyOptions& options, const std::ve
     suite.pairs = std::move(*results);
     suite.grid = tile_grid(settings.width, settings.height, options.tile);
     suite.seed = seed;
-    suite.seconds = now() - start;
+    suite.seconds = now_seconds() - start;
     return suite;
 }
 

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <memory>
 #include <mutex>
 #include <random>
 
+#include "clock.h"
 #include "commands/command.h"
 #include "error.h"
 #include "console/interrupt.h"
@@ -57,7 +57,7 @@ public:
     /// From any thread.
     void show(const SideName& side, std::uint32_t run) {
         const std::lock_guard lock(mutex_);
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        const double seconds = watch_.seconds();
         if (seconds < next_) {
             return;
         }
@@ -74,7 +74,7 @@ private:
     bool terminal_;
     bool shown_ = false;
     double next_ = 2;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Stopwatch watch_;
 };
 
 void check_verify_options(VerifyOptions& options) {
