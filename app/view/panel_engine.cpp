@@ -9,7 +9,7 @@
 #include "console/report.h"
 #include "session/open_session.h"
 #include "view/film_figures.h"
-#include "view/panel_device.h"
+#include "view/renderer_on_device.h"
 #include "view/view_request.h"
 
 namespace diptych::app {

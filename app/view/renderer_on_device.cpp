@@ -1,4 +1,4 @@
-#include "view/panel_device.h"
+#include "view/renderer_on_device.h"
 
 #if DIPTYCH_VULKAN
 #include "renderer/path_renderer.h"

@@ -1,4 +1,4 @@
-// What a panel shows of a renderer on a device, where the program was built with one.
+// What the view asks of a renderer that runs on a device. Other renderers, and programs built without Vulkan, answer with nothing.
 #pragma once
 
 #include <memory>
