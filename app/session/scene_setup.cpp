@@ -159,12 +159,11 @@ void place_lights(const RenderRequest& request, Scene& scene) {
 
 void place_camera(const RenderRequest& request, Scene& scene) {
     Camera& camera = scene.cameras[static_cast<std::size_t>(request.settings.camera)];
-    if (request.lens_radius.value_or(0) > 0 && !request.focus_distance) {
+    if (request.lens.radius.value_or(0) > 0 && !request.lens.focus_distance) {
         throw Error("--aperture: wants --focus, the distance in focus");
     }
     place_at(request.viewpoint, camera);
-    camera.lens_radius = request.lens_radius.value_or(camera.lens_radius);
-    camera.focus_distance = request.focus_distance.value_or(camera.focus_distance);
+    place_lens(request.lens, camera);
 }
 
 }  // namespace

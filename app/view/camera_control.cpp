@@ -117,7 +117,7 @@ bool focus_on(Camera& camera, const glm::dvec3& point) {
     if (!(depth > 0)) {
         return false;
     }
-    camera.focus_distance = depth;
+    camera.lens.focus_distance = depth;
     return true;
 }
 

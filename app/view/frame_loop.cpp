@@ -82,8 +82,7 @@ void FrameLoop::place_seen() {
     Camera& camera = state_.rendered.camera;
     const Camera own = camera;
     place_at(request.viewpoint, camera);
-    camera.lens_radius = request.lens_radius.value_or(camera.lens_radius);
-    camera.focus_distance = request.focus_distance.value_or(camera.focus_distance);
+    place_lens(request.lens, camera);
     state_.follows_camera = camera.camera_to_world == own.camera_to_world;
     state_.pivot = orbit_pivot(scene_.bounds, camera);
 }
@@ -102,8 +101,7 @@ void FrameLoop::open_scene(const std::string& path) {
     request.scene = path;
     request.camera.clear();
     request.viewpoint = {};
-    request.lens_radius.reset();
-    request.focus_distance.reset();
+    request.lens = {};
     request.settings.camera = 0;
     loader_.open(std::move(request));
 }

@@ -22,13 +22,11 @@ RenderRequest view_request(const RenderedState& state, const Scene& loaded) {
     request.viewpoint = {};
     if (seen.camera_to_world != own.camera_to_world || seen.vertical_fov != own.vertical_fov ||
         seen.orthographic_height != own.orthographic_height) {
-        request.viewpoint = viewpoint_of(seen, seen.focus_distance);
+        request.viewpoint = viewpoint_of(seen, seen.lens.focus_distance);
     }
-    request.lens_radius.reset();
-    request.focus_distance.reset();
-    if (seen.lens_radius != own.lens_radius || seen.focus_distance != own.focus_distance) {
-        request.lens_radius = seen.lens_radius;
-        request.focus_distance = seen.focus_distance;
+    request.lens = {};
+    if (seen.lens != own.lens) {
+        request.lens = {seen.lens.radius, seen.lens.focus_distance};
     }
     if (index > 0) {
         request.camera = fmt::format("{}", index);

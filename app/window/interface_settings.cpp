@@ -104,10 +104,10 @@ void draw_camera(const Theme& theme, const InterfaceFacts& facts, ViewState& sta
         if (slider(theme, ranges::fov, degrees, "%.1f°", "Vertical field of view")) {
             set_field_of_view(camera, degrees * glm::pi<double>() / 180, distance);
         }
-        slider(theme, ranges::aperture, camera.lens_radius, "%.4g m", "Radius of the lens; 0 is a pinhole",
+        slider(theme, ranges::aperture, camera.lens.radius, "%.4g m", "Radius of the lens; 0 is a pinhole",
                NumberRange{0, diagonal * 0.1});
-        ImGui::BeginDisabled(camera.lens_radius <= 0);
-        slider(theme, ranges::focus, camera.focus_distance, "%.3g m",
+        ImGui::BeginDisabled(camera.lens.radius <= 0);
+        slider(theme, ranges::focus, camera.lens.focus_distance, "%.3g m",
                "Distance in focus. F focuses on what is under the pointer",
                NumberRange{diagonal * 1e-3, diagonal * 10});
         ImGui::EndDisabled();

@@ -148,7 +148,7 @@ void OpenView::take_answers() {
     try {
         if (focus_film_.valid() && focus_film_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
             if (focus_at(focus_point_, focus_film_.get(), state())) {
-                log_.write("focused", {{"distance", state().rendered.camera.focus_distance}});
+                log_.write("focused", {{"distance", state().rendered.camera.lens.focus_distance}});
             } else {
                 say("nothing to focus on under the pointer");
             }

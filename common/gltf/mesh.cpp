@@ -72,12 +72,11 @@ void apply_skin(Document& document, const std::vector<glm::dmat4>& joints, const
 
 void warn_missing_uvs(Document& document, const Material& material, const Primitive& primitive,
                       const std::string& object) {
-    for (const TextureSlot* slot :
-         {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-          &material.emission_texture, &material.specular_texture, &material.specular_color_texture}) {
-        if (slot->texture != none && primitive.uvs[static_cast<std::size_t>(slot->uv_set)].empty()) {
+    for (const auto member : texture_slots) {
+        const TextureSlot& slot = material.*member;
+        if (slot.texture != none && primitive.uvs[static_cast<std::size_t>(slot.uv_set)].empty()) {
             warn(document, object,
-                 "lacks TEXCOORD_" + std::to_string(slot->uv_set) + ", which its material's textures read; taken as 0");
+                 "lacks TEXCOORD_" + std::to_string(slot.uv_set) + ", which its material's textures read; taken as 0");
         }
     }
 }

@@ -1,6 +1,5 @@
 #include "pack/features.h"
 
-#include <array>
 #include <utility>
 
 #include "bsdf/bsdf.h"
@@ -9,11 +8,6 @@
 namespace diptych {
 namespace {
 
-std::array<const TextureSlot*, 6> slots_of(const Material& m) {
-    return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-            &m.emission_texture,   &m.specular_texture,           &m.specular_color_texture};
-}
-
 /// Whether a microfacet lobe has any weight; textures only scale these factors.
 bool reflects_specularly(const Material& m) {
     return !m.unlit && (m.specular > 0 || m.metallic > 0);
@@ -21,10 +15,10 @@ bool reflects_specularly(const Material& m) {
 
 std::uint32_t material_features(const Material& m, const RenderSettings& settings) {
     std::uint32_t bits = 0;
-    for (const TextureSlot* slot : slots_of(m)) {
-        if (slot->texture != none) {
+    for (const auto slot : texture_slots) {
+        if ((m.*slot).texture != none) {
             bits |= shared::FEATURE_TEXTURES;
-            bits |= slot->uv_set == 1 ? shared::FEATURE_SECOND_UV : 0U;
+            bits |= (m.*slot).uv_set == 1 ? shared::FEATURE_SECOND_UV : 0U;
         }
     }
     if (m.normal_texture.texture != none) {
@@ -90,7 +84,7 @@ std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings
     if (!scene.cameras.empty()) {
         const Camera& camera = scene.cameras[static_cast<std::size_t>(settings.camera)];
         bits |= camera.orthographic ? shared::FEATURE_ORTHOGRAPHIC : 0U;
-        bits |= camera.lens_radius > 0 ? shared::FEATURE_THIN_LENS : 0U;
+        bits |= camera.lens.radius > 0 ? shared::FEATURE_THIN_LENS : 0U;
     }
     bits |= settings.standard_error ? shared::FEATURE_STANDARD_ERROR : 0U;
     bits |= settings.first_hit_layers ? shared::FEATURE_FIRST_HIT_LAYERS : 0U;

@@ -23,8 +23,8 @@ void pack_camera(const Scene& scene, const RenderSettings& settings, PackedScene
     out.right = glm::vec3(glm::dvec3(m[0]) * half_width);
     out.up = glm::vec3(glm::dvec3(m[1]) * half_height);
     out.forward = glm::vec3(-glm::normalize(glm::dvec3(m[2])));
-    out.lens_radius = static_cast<float>(camera.lens_radius);
-    out.focus_distance = static_cast<float>(camera.focus_distance);
+    out.lens_radius = static_cast<float>(camera.lens.radius);
+    out.focus_distance = static_cast<float>(camera.lens.focus_distance);
 }
 
 }  // namespace diptych

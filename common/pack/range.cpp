@@ -59,7 +59,7 @@ void require_near(const Scene& scene, const std::string& object, const char* wha
 void require_camera(const Scene& scene, const Camera& camera, const glm::dvec2& half_film, const PackedScene& packed) {
     const double distance = glm::length(glm::dvec3(camera.camera_to_world[3]) - packed.origin);
     const double film = std::max(half_film.x, half_film.y);
-    const double lens = camera.lens_radius;
+    const double lens = camera.lens.radius;
     const auto require = [&](const char* what, double size, double most) {
         if (!(size >= 0 && size <= most)) {
             throw Error(scene.name + ": camera '" + camera.name + "': " + what + " " + metres(size) +
@@ -69,7 +69,7 @@ void require_camera(const Scene& scene, const Camera& camera, const glm::dvec2& 
     // Where its rays start in a mesh's own space, Embree wants fewer than 1.8e18 units.
     require("stands away from the scene's first view by", distance, std::min(farthest, 1e17 * packed.least_unit));
     require("has a lens of radius", lens, std::min(farthest, 1e17 * packed.least_unit));
-    require("is focused at", lens > 0 ? camera.focus_distance : 0, farthest);
+    require("is focused at", lens > 0 ? camera.lens.focus_distance : 0, farthest);
     if (camera.orthographic) {
         require("has a view of half width", film, std::min(farthest, 1e17 * packed.least_unit));
     } else {

@@ -30,8 +30,8 @@ void add_random_cameras(RandomScene& out, Draws draws) {
     out.settings.camera = draws.below(count);
     Camera& camera = out.scene.cameras[std::size_t(out.settings.camera)];
     if (draws.chance(0.3)) {
-        camera.lens_radius = draws.between(0.03, 0.2);
-        camera.focus_distance = draws.between(3, 5);
+        camera.lens.radius = draws.between(0.03, 0.2);
+        camera.lens.focus_distance = draws.between(3, 5);
     }
     const bool wide = draws.chance(0.5);
     out.settings.width = wide ? 24 : 16;

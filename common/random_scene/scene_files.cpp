@@ -81,8 +81,8 @@ std::string write_random_scene(const RandomScene& random, const std::filesystem:
     }
     out += sky_arguments(random, path);
     const Camera& camera = random.scene.cameras[std::size_t(s.camera)];
-    if (camera.lens_radius > 0) {
-        out += fmt::format(" --aperture {} --focus {}", camera.lens_radius, camera.focus_distance);
+    if (camera.lens.radius > 0) {
+        out += fmt::format(" --aperture {} --focus {}", camera.lens.radius, camera.lens.focus_distance);
     }
     return out + (resamples(s.integrator) ? resampling_arguments(s.resampling) : "");
 }
@@ -102,10 +102,8 @@ Scene read_random_scene(const RandomScene& random, const std::filesystem::path& 
     scene.environment.scale = sky.scale;
     scene.environment.rotation = sky.rotation;
     put_in_order(scene.cameras, random.scene.cameras);
-    const Camera& lens = random.scene.cameras[std::size_t(random.settings.camera)];
-    Camera& camera = scene.cameras.at(std::size_t(random.settings.camera));
-    camera.lens_radius = lens.lens_radius;
-    camera.focus_distance = lens.focus_distance;
+    const auto camera = std::size_t(random.settings.camera);
+    scene.cameras.at(camera).lens = random.scene.cameras[camera].lens;
     return scene;
 }
 

@@ -88,9 +88,7 @@ void add_material_drops(std::vector<Drop>& drops, std::size_t i) {
     const auto add = [&](auto drop) {
         drops.push_back([i, drop](RandomScene& r) { return i < r.scene.materials.size() && drop(r.scene.materials[i]); });
     };
-    for (TextureSlot Material::*const slot :
-         {&Material::base_color_texture, &Material::metallic_roughness_texture, &Material::normal_texture,
-          &Material::emission_texture, &Material::specular_texture, &Material::specular_color_texture}) {
+    for (TextureSlot Material::*const slot : texture_slots) {
         add([slot](Material& m) { return clear_slot(m.*slot); });
         add([slot](Material& m) { return drop_transform(m.*slot); });
         add([slot](Material& m) { return set((m.*slot).uv_set, 0); });
@@ -133,7 +131,7 @@ std::vector<Drop> all_drops() {
     drops.emplace_back([](RandomScene& r) { return set(r.scene.environment.kind, EnvironmentKind::none); });
     drops.emplace_back([](RandomScene& r) { return set(r.settings.max_depth, 1U); });
     drops.emplace_back([](RandomScene& r) {
-        return set(r.scene.cameras[std::size_t(r.settings.camera)].lens_radius, 0.0);
+        return set(r.scene.cameras[std::size_t(r.settings.camera)].lens.radius, 0.0);
     });
     drops.emplace_back([](RandomScene& r) { return drop_nodes(r.scene); });
     add_primitive_drops(drops);

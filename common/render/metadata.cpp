@@ -115,11 +115,11 @@ void add_picture_options(std::string& command, const RenderRequest& request) {
         add_option(command, ranges::env_rotate, request.environment_rotation);
     }
     add_viewpoint_options(command, request);
-    if (request.lens_radius) {
-        add_option(command, ranges::aperture, *request.lens_radius);
+    if (request.lens.radius) {
+        add_option(command, ranges::aperture, *request.lens.radius);
     }
-    if (request.focus_distance) {
-        add_option(command, ranges::focus, *request.focus_distance);
+    if (request.lens.focus_distance) {
+        add_option(command, ranges::focus, *request.lens.focus_distance);
     }
 }
 
@@ -239,8 +239,8 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add_optional(ranges::fov, request.viewpoint.fov);
     add_optional(ranges::view_height, request.viewpoint.view_height);
     add("sun", sun_text(request.sun));
-    add_optional(ranges::aperture, request.lens_radius);
-    add_optional(ranges::focus, request.focus_distance);
+    add_optional(ranges::aperture, request.lens.radius);
+    add_optional(ranges::focus, request.lens.focus_distance);
     if (request.frames > 0) {
         add("frame", request.frame);
         add("time", shown_at(request));

@@ -25,14 +25,14 @@ auto tie_settings(const RenderSettings& s) {
 /// scene's own all of that stays.
 auto features_of(const Moment& moment) {
     const bool own = !moment.camera;
-    return std::tuple(own, !own && moment.camera->orthographic, !own && moment.camera->lens_radius > 0);
+    return std::tuple(own, !own && moment.camera->orthographic, !own && moment.camera->lens.radius > 0);
 }
 
 auto pose_of(const Moment& moment) {
     const Camera camera = moment.camera.value_or(Camera());
     const Orbit orbit = moment.orbit.value_or(Orbit());
-    return std::tuple(camera.camera_to_world, camera.vertical_fov, camera.orthographic_height, camera.lens_radius,
-                      camera.focus_distance, orbit.pivot, orbit.degrees);
+    return std::tuple(camera.camera_to_world, camera.vertical_fov, camera.orthographic_height, camera.lens, orbit.pivot,
+                      orbit.degrees);
 }
 
 /// Lights that are there.

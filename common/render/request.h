@@ -32,8 +32,7 @@ struct RenderRequest {
     bool adds_neutral_sky = false;                // what an empty environment came to
     double environment_scale = 1;
     double environment_rotation = 0;       // degrees
-    std::optional<double> lens_radius;     // metres
-    std::optional<double> focus_distance;  // metres
+    LensChoice lens;                       // of the camera
     Viewpoint viewpoint;                   // of the camera; empty is the scene's own
     std::optional<Sun> sun;                // beside the scene's own lights
     double exposure = 0;                   // EV, for output that is tone mapped

@@ -109,7 +109,7 @@ Camera frame_scene(const Scene& scene) {
     camera.camera_to_world[1] = glm::dvec4(up, 0);
     camera.camera_to_world[2] = glm::dvec4(back, 0);
     camera.camera_to_world[3] = glm::dvec4(centre + distance * back, 1);
-    camera.focus_distance = distance;
+    camera.lens.focus_distance = distance;
     return camera;
 }
 

@@ -84,6 +84,11 @@ struct Material {
     std::optional<MovingEmission> moving_emission{};  // present: counts as emissive at every moment, dark ones included
 };
 
+/// All slots of a material.
+inline constexpr std::array<TextureSlot Material::*, 6> texture_slots = {
+    &Material::base_color_texture, &Material::metallic_roughness_texture, &Material::normal_texture,
+    &Material::emission_texture,   &Material::specular_texture,           &Material::specular_color_texture};
+
 /// Triangles of one material. Attribute arrays are either empty or as long as `positions`.
 struct Primitive {
     std::vector<glm::vec3> positions;
@@ -108,6 +113,13 @@ struct Instance {
     int node = none;  // that it hangs in; none where nothing moves it
 };
 
+struct Lens {
+    double radius = 0;          // metres; 0 is a pinhole
+    double focus_distance = 1;  // metres along -Z
+
+    bool operator==(const Lens&) const = default;
+};
+
 struct Camera {
     std::string name;
     glm::dmat4 camera_to_world{1};  // rigid: the import removes scale
@@ -115,8 +127,7 @@ struct Camera {
     double vertical_fov = 0.785;     // radians; perspective only
     double orthographic_height = 1;  // full height of the view, metres; orthographic only
     std::optional<double> aspect;    // width / height the file asks for; the render's own size wins
-    double lens_radius = 0;          // metres; 0 is a pinhole
-    double focus_distance = 1;       // metres along -Z
+    Lens lens;
     int node = none;                 // that it hangs in; none where nothing moves it
 };
 

@@ -43,6 +43,11 @@ void place_eye(const Viewpoint& viewpoint, Camera& camera) {
 
 }  // namespace
 
+void place_lens(const LensChoice& lens, Camera& camera) {
+    camera.lens.radius = lens.radius.value_or(camera.lens.radius);
+    camera.lens.focus_distance = lens.focus_distance.value_or(camera.lens.focus_distance);
+}
+
 void place_at(const Viewpoint& viewpoint, Camera& camera) {
     place_eye(viewpoint, camera);
     if (viewpoint.fov) {

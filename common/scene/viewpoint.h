@@ -19,6 +19,15 @@ struct Viewpoint {
     bool operator==(const Viewpoint&) const = default;
 };
 
+/// What of a camera's lens is another than the scene has it; empty changes nothing.
+struct LensChoice {
+    std::optional<double> radius;          // metres
+    std::optional<double> focus_distance;  // metres
+};
+
+/// The camera's lens as chosen.
+void place_lens(const LensChoice& lens, Camera& camera);
+
 /// Puts the camera there; one that an animation moved hangs in nothing afterwards. Throws Error, naming the option,
 /// where eye and look_at are one point or `up` is parallel to the line between them, a part is missing, or the camera
 /// is of the other kind.

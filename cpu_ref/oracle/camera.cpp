@@ -11,9 +11,9 @@ Ray camera_ray(const World& world, const Camera& camera, double aspect, double x
     const dvec3 film((2 * x - 1) * half * aspect, (1 - 2 * y) * half, 0);
     dvec3 start = camera.orthographic ? film : dvec3(0);
     dvec3 direction = camera.orthographic ? dvec3(0, 0, -1) : film + dvec3(0, 0, -1);
-    if (camera.lens_radius > 0) {
-        const dvec3 focus = start + camera.focus_distance * direction;
-        const double radius = camera.lens_radius * std::sqrt(random.uniform());
+    if (camera.lens.radius > 0) {
+        const dvec3 focus = start + camera.lens.focus_distance * direction;
+        const double radius = camera.lens.radius * std::sqrt(random.uniform());
         const double angle = 2 * pi * random.uniform();
         start += dvec3(radius * std::cos(angle), radius * std::sin(angle), 0);
         direction = focus - start;

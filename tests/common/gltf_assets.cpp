@@ -72,7 +72,7 @@ bool is_consistent(const Scene& scene) {
     for (const Instance& instance : scene.instances) {
         good = good && instance.mesh >= 0 && instance.mesh < static_cast<int>(scene.meshes.size());
     }
-    const double distance = frame_scene(scene).focus_distance;
+    const double distance = frame_scene(scene).lens.focus_distance;
     return good && std::isfinite(distance) && distance > 0;
 }
 

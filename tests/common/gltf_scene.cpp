@@ -235,5 +235,5 @@ TEST_CASE("the default camera sees every corner of the scene", "[gltf]") {
     CHECK(reach <= 1);
     CHECK(reach > 0.8);
     CHECK(is_empty(scene_bounds(Scene{})));
-    CHECK(frame_scene(Scene{}).focus_distance > 0);
+    CHECK(frame_scene(Scene{}).lens.focus_distance > 0);
 }

@@ -26,8 +26,8 @@ RenderRequest request_of_everything() {
     request.tonemap = "aces";
     request.environment_scale = 0.1;
     request.environment_rotation = -30;
-    request.lens_radius = 0.01;
-    request.focus_distance = 2.5;
+    request.lens.radius = 0.01;
+    request.lens.focus_distance = 2.5;
     request.viewpoint.eye = glm::dvec3(1, -2.5, 3e-7);
     request.viewpoint.look_at = glm::dvec3(0, 0.1, 0);
     request.viewpoint.up = glm::dvec3(0, 0, 1);

@@ -87,8 +87,8 @@ inline std::vector<std::pair<std::string, Scene>> agreement_scenes() {
     out.emplace_back("mirrored instances of a light", mirrored);
 
     Scene lens = corner_scene(bright, false);
-    lens.cameras[0].lens_radius = 0.15;
-    lens.cameras[0].focus_distance = 3;
+    lens.cameras[0].lens.radius = 0.15;
+    lens.cameras[0].lens.focus_distance = 3;
     out.emplace_back("thin lens", lens);
 
     Scene sky = corner_scene(bright, false);

@@ -133,12 +133,12 @@ const std::vector<Case>& cases() {
          },
          0},
         {"all but a mirror", [](Scene& s, RenderSettings&) { material(s).roughness = 0.011F; }, 0},
-        {"lens", [](Scene& s, RenderSettings&) { s.cameras[0].lens_radius = 0.1; }, FEATURE_THIN_LENS},
+        {"lens", [](Scene& s, RenderSettings&) { s.cameras[0].lens.radius = 0.1; }, FEATURE_THIN_LENS},
         {"orthographic", [](Scene& s, RenderSettings&) { s.cameras[0].orthographic = true; }, FEATURE_ORTHOGRAPHIC},
         {"another camera's lens",
          [](Scene& s, RenderSettings&) {
              s.cameras.push_back(s.cameras[0]);
-             s.cameras[1].lens_radius = 0.1;
+             s.cameras[1].lens.radius = 0.1;
          },
          0},
         {"errors", [](Scene&, RenderSettings& r) { r.standard_error = true; }, FEATURE_STANDARD_ERROR},

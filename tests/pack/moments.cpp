@@ -267,7 +267,7 @@ TEST_CASE("settings that no array depends on are taken over as if packed anew") 
     CHECK(!packed.previous_instances.empty());
     settings.integrator = Integrator::direct;
     settings.moves = false;
-    scene.cameras[0].lens_radius = 0.5;
+    scene.cameras[0].lens.radius = 0.5;
     REQUIRE(repack_settings(scene, settings, packed));
     check_same(packed, pack_scene(scene, settings));
     CHECK(!packed.keeps_previous);

@@ -88,7 +88,7 @@ TEST_CASE("What is out of the range of single precision is refused by name") {
         scene.cameras[0].orthographic_height = far;
         refused(scene, "camera 'camera'", "half width");
         scene = least_scene();
-        scene.cameras[0].lens_radius = far;
+        scene.cameras[0].lens.radius = far;
         refused(scene, "camera 'camera'", "lens");
     }
     Scene tiny = least_scene();

@@ -84,7 +84,7 @@ std::map<std::string, int> count_features(std::uint64_t seeds) {
         }
         const Camera& camera = scene.cameras[std::size_t(random.settings.camera)];
         counts["orthographic camera"] += camera.orthographic;
-        counts["thin lens"] += camera.lens_radius > 0;
+        counts["thin lens"] += camera.lens.radius > 0;
         counts["Blinn-Phong"] += random.settings.brdf == BrdfModel::blinn_phong;
         counts["microfacet normal maps"] += random.settings.normal_maps == NormalMaps::microfacet;
         counts["generic pipelines"] += random.settings.generic;

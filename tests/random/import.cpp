@@ -104,7 +104,7 @@ struct LayerTest {
 void compare_layers(std::uint64_t seed, const TestFolder& folder, std::vector<LayerTest>& tests) {
     RandomScene random = make_random_scene(seed);
     keep_given_tangents(random.scene);
-    random.scene.cameras[std::size_t(random.settings.camera)].lens_radius = 0;
+    random.scene.cameras[std::size_t(random.settings.camera)].lens.radius = 0;
     random.settings.max_depth = 0;
     random.settings.first_hit_layers = true;
     random.settings.normal_maps = NormalMaps::shading;

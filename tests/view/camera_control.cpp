@@ -19,7 +19,7 @@ Camera some_camera(bool orthographic) {
     Camera camera = make_camera("camera", {3, 2, 5}, {0.5, 1, -1}, 40);
     camera.orthographic = orthographic;
     camera.orthographic_height = 2.5;
-    camera.focus_distance = 4;
+    camera.lens.focus_distance = 4;
     return camera;
 }
 
@@ -163,9 +163,9 @@ TEST_CASE("Focus lies in the plane of the point", "[view]") {
         const glm::dvec3 point = point_seen(camera, {0.1, 0.9}, 1.6, 7);
         REQUIRE(focus_on(camera, point));
         const glm::dvec3 local(glm::inverse(camera.camera_to_world) * glm::dvec4(point, 1));
-        CHECK(camera.focus_distance == Approx(-local.z).epsilon(1e-12));
+        CHECK(camera.lens.focus_distance == Approx(-local.z).epsilon(1e-12));
         CHECK(!focus_on(camera, glm::dvec3(camera.camera_to_world * glm::dvec4(0, 0, 1, 1))));
-        CHECK(camera.focus_distance == Approx(-local.z).epsilon(1e-12));
+        CHECK(camera.lens.focus_distance == Approx(-local.z).epsilon(1e-12));
     }
 }
 

@@ -155,7 +155,7 @@ TEST_CASE("The command repeats what is seen", "[view]") {
     CHECK(own.find("--start 0") != std::string::npos);
     CHECK(own.find("--size 16x16") != std::string::npos);
     orbit(loop.state().rendered.camera, loop.state().pivot, 0.3, 0.1);
-    loop.state().rendered.camera.lens_radius = 0.25;
+    loop.state().rendered.camera.lens.radius = 0.25;
     loop.state().rendered.request.sun = Sun{10, 20, 3};
     loop.state().rendered.request.settings.seed = 6;
     const std::string moved = loop.repeat_command(Panel::vulkan, "out.exr");

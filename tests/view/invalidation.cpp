@@ -33,12 +33,12 @@ TEST_CASE("A seed invalidates the picture", "[view]") {
 
 TEST_CASE("The camera invalidates the view", "[view]") {
     RenderedState before;
-    before.camera.lens_radius = 0.1;
+    before.camera.lens.radius = 0.1;
     CHECK(after([](RenderedState& s) { s.camera.camera_to_world[3].x += 1; }, before) == Change::view);
     CHECK(after([](RenderedState& s) { s.camera.vertical_fov = 1; }, before) == Change::view);
     CHECK(after([](RenderedState& s) { s.camera.orthographic_height = 7; }, before) == Change::view);
-    CHECK(after([](RenderedState& s) { s.camera.lens_radius = 0.2; }, before) == Change::view);
-    CHECK(after([](RenderedState& s) { s.camera.focus_distance = 9; }, before) == Change::view);
+    CHECK(after([](RenderedState& s) { s.camera.lens.radius = 0.2; }, before) == Change::view);
+    CHECK(after([](RenderedState& s) { s.camera.lens.focus_distance = 9; }, before) == Change::view);
 }
 
 TEST_CASE("What moves invalidates the moment", "[view]") {
@@ -82,7 +82,7 @@ TEST_CASE("What is packed or compiled otherwise invalidates the settings", "[vie
     for (const Setting& change : changes) {
         CHECK(after([&](RenderedState& s) { change(s.request.settings); }) == Change::settings);
     }
-    CHECK(after([](RenderedState& s) { s.camera.lens_radius = 0.1; }) == Change::settings);
+    CHECK(after([](RenderedState& s) { s.camera.lens.radius = 0.1; }) == Change::settings);
     CHECK(after([](RenderedState& s) { s.camera.orthographic = true; }) == Change::settings);
     CHECK(after([](RenderedState& s) { s.request.sun = Sun{}; }) == Change::settings);
     CHECK(after([](RenderedState& s) { s.request.environment_scale = 0; }) == Change::settings);

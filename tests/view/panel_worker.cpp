@@ -121,11 +121,11 @@ TEST_CASE("A film asked for right after a change is that of the change", "[view]
     CHECK_THROWS_AS(worker.film().get(), Error);  // none is coming
     ViewJob job = job_of(small_scene(), 1);
     for (job.version = 1; job.version <= 20; ++job.version) {
-        job.state.camera.focus_distance = static_cast<double>(job.version);
+        job.state.camera.lens.focus_distance = static_cast<double>(job.version);
         worker.post(job);
         const KeptFilm kept = worker.film().get();
         CHECK(kept.outcome.spp >= 1);
-        CHECK(kept.camera.focus_distance == static_cast<double>(job.version));
+        CHECK(kept.camera.lens.focus_distance == static_cast<double>(job.version));
     }
 }
 
@@ -298,7 +298,7 @@ TEST_CASE("After any walk of changes a panel's film is that of a fresh renderer"
         [&] { job.state.request.sun.reset(), job.state.request.environment_scale = 1; },
         [&] { settings.integrator = Integrator::path; },
         [&] { settings.max_depth = 1; },
-        [&] { job.state.camera.lens_radius = 0.1; },
+        [&] { job.state.camera.lens.radius = 0.1; },
         [&] { settings.seed = 77; },
     };
     for (std::size_t i = 0; i < walk.size(); ++i) {

@@ -117,8 +117,8 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
     };
     add(ranges::env_scale, request.environment_scale, "Factor on that light");
     add(ranges::env_rotate, request.environment_rotation, "Degrees it is turned about +Y");
-    add(ranges::aperture, request.lens_radius, "Radius of the lens, metres");
-    add(ranges::focus, request.focus_distance, "Distance in focus, metres");
+    add(ranges::aperture, request.lens.radius, "Radius of the lens, metres");
+    add(ranges::focus, request.lens.focus_distance, "Distance in focus, metres");
     add_viewpoint_options(command, arguments);
     command
         .add_option("--ignore-extension", request.ignored_extensions,
