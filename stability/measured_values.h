@@ -2,7 +2,7 @@
 #ifndef MEASURED_VALUES_H
 #define MEASURED_VALUES_H
 
-#include "language/leaves.h"
+#include "leaves.h"
 
 SHARED_BEGIN
 

@@ -1,7 +1,7 @@
 #include "error.h"
 #include "stability_backend.h"
 #if DIPTYCH_VULKAN
-#include "device/compute_shader.h"
+#include "pipelines/compute_shader.h"
 #include "memory/readback.h"
 #include "stability_shader_binaries.h"
 #include "memory/upload.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "image/near_miss.h"
+#include "near_miss.h"
 
 namespace diptych::app {
 

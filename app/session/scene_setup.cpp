@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "error.h"
-#include "image/near_miss.h"
+#include "near_miss.h"
 #include "console/report.h"
 #include "pose/clips.h"
 #include "scene/default_camera.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "render/setting_ranges.h"
+#include "settings/ranges.h"
 #include "pose/pose.h"
 
 namespace diptych::app {

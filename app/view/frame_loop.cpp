@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "render/metadata.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "scene/orbit.h"
 #include "pose/pose.h"
 #include "session/scene_setup.h"

@@ -12,7 +12,7 @@
 #include "error.h"
 #include "image/image_file.h"
 #include "console/interrupt.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "commands/render/picture.h"
 #include "console/report.h"
 #include "view/camera_control.h"

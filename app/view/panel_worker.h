@@ -19,7 +19,7 @@
 #include "view/view_state.h"
 
 namespace diptych {
-struct DeviceFilm;  // vk_backend/memory/device_film.h
+struct DeviceFilm;  // vk_backend/renderer/device_film.h
 }
 
 namespace diptych::app {

@@ -5,7 +5,7 @@
 
 #include "error.h"
 #if DIPTYCH_VULKAN
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "display/display_pass.h"
 #include "renderer/vulkan_renderer.h"
 #endif

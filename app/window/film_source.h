@@ -4,7 +4,7 @@
 #include <array>
 #include <memory>
 
-#include "memory/device_film.h"
+#include "renderer/device_film.h"
 #include "view/frame_loop.h"
 
 namespace diptych::app {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "shader_binaries.h"
 
 namespace diptych::app {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "scene/default_camera.h"
 #include "view/camera_control.h"
 #include "window/interface_layout.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "memory/device_film.h"
+#include "renderer/device_film.h"
 #include "display/display_pass.h"
 #include "display/swapchain.h"
 #include "window/imgui_pass.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/setting_ranges.h"
+#include "settings/ranges.h"
 
 namespace diptych::app {
 

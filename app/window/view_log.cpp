@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "error.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "view/shown_names.h"
 
 namespace diptych::app {

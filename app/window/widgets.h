@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/setting_ranges.h"
+#include "settings/ranges.h"
 #include "window/theme.h"
 
 namespace diptych::app {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "error.h"
-#include "image/near_miss.h"
+#include "near_miss.h"
 
 namespace diptych::gltf {
 namespace {

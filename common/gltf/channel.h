@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "pose/animation.h"
+#include "scene/animation.h"
 #include "gltf/document.h"
 #include "scene/warnings.h"
 

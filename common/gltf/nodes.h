@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pose/animation.h"
+#include "scene/animation.h"
 #include "gltf/document.h"
 
 namespace diptych::gltf {

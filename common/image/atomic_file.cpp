@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "error.h"
-#include "image/near_miss.h"
+#include "near_miss.h"
 
 namespace diptych {
 namespace {

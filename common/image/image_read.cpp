@@ -8,7 +8,7 @@
 #include "error.h"
 #include "image/image_file.h"
 #include "image/image_library.h"
-#include "image/near_miss.h"
+#include "near_miss.h"
 #include "image/picture_layers.h"
 #include "image/radiance_file.h"
 #include "image/size_claim.h"

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "language/leaves.h"
+#include "leaves.h"
 
 namespace diptych {
 namespace shared {

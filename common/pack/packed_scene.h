@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pack/linear_part.h"
-#include "render/settings.h"
+#include "settings/settings.h"
 #include "scene/scene.h"
 #include "language/scene_buffers.h"
 #include "language/scene_features.h"

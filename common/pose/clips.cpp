@@ -5,7 +5,7 @@
 #include <map>
 
 #include "error.h"
-#include "image/near_miss.h"
+#include "near_miss.h"
 
 namespace diptych {
 namespace {

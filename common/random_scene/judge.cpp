@@ -5,7 +5,7 @@
 
 #include "random_scene/judge_side.h"
 #include "random_scene/scene_files.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 
 namespace diptych {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "render/settings.h"
+#include "settings/settings.h"
 #include "scene/scene.h"
 
 namespace diptych {

@@ -6,7 +6,7 @@
 
 #include "error.h"
 #include "image/image_file.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "scene/environment_load.h"
 #include "gltf/import.h"
 #include "gltf/write.h"

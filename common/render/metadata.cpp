@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "render/setting_ranges.h"
-#include "render/settings_names.h"
+#include "settings/ranges.h"
+#include "settings/names.h"
 
 namespace diptych {
 

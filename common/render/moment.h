@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "render/settings.h"
+#include "settings/settings.h"
 #include "scene/scene.h"
 #include "scene/sun.h"
 

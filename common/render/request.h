@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "image/tonemap_image.h"
-#include "render/settings.h"
+#include "settings/settings.h"
 #include "scene/sun.h"
 #include "scene/viewpoint.h"
 

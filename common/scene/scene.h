@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "pose/animation.h"
+#include "scene/animation.h"
 #include "scene/warnings.h"
 
 namespace diptych {

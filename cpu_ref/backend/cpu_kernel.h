@@ -6,7 +6,7 @@
 
 #include "backend/resampling_films.h"
 #include "embree/embree_scene.h"
-#include "language/leaves.h"
+#include "leaves.h"
 #include "pack/packed_scene.h"
 
 namespace diptych {

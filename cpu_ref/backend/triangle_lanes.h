@@ -1,7 +1,7 @@
 // Points on emissive triangles, many at a time.
 #pragma once
 
-#include "language/leaves.h"
+#include "leaves.h"
 
 namespace diptych {
 

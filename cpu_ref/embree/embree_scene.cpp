@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "error.h"
-#include "language/leaves.h"
+#include "leaves.h"
 #include "pack/emitter_corners.h"
 #include "pack/packed_scene.h"
 

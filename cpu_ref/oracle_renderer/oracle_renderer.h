@@ -6,7 +6,7 @@
 
 #include "oracle/oracle.h"
 #include "render/renderer.h"
-#include "render/settings.h"
+#include "settings/settings.h"
 
 namespace diptych {
 

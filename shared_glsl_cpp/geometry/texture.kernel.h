@@ -2,7 +2,7 @@
 #ifndef TEXTURE_KERNEL_H
 #define TEXTURE_KERNEL_H
 
-#include "language/leaves.h"
+#include "leaves.h"
 
 /// One coordinate brought near [0, 1] by its wrap mode before it is scaled, so that large coordinates keep their fraction; NaN
 /// becomes 0.

@@ -2,7 +2,7 @@
 #ifndef ENVIRONMENT_KERNEL_H
 #define ENVIRONMENT_KERNEL_H
 
-#include "language/leaves.h"
+#include "leaves.h"
 
 FN vec4 environment_texel(int x, int y) {
     int w = int(constants.environment.size.x);

@@ -2,7 +2,7 @@
 #ifndef PUNCTUAL_KERNEL_H
 #define PUNCTUAL_KERNEL_H
 
-#include "language/leaves.h"
+#include "leaves.h"
 
 /// The light as it is, or as it was at the moment that reuse looks back to.
 FN PunctualLight punctual_light_at(uint moment, uint index) {

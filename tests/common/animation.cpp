@@ -1,5 +1,5 @@
 // Keyframes between their keys: the specification's formulas, evaluated here again in another form.
-#include "pose/animation.h"
+#include "scene/animation.h"
 
 #include <cmath>
 

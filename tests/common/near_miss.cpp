@@ -1,5 +1,5 @@
 // What a user may have meant.
-#include "image/near_miss.h"
+#include "near_miss.h"
 
 #include "catch.h"
 #include "gltf_fixture.h"

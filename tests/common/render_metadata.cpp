@@ -2,7 +2,7 @@
 
 #include "error.h"
 #include "render/metadata.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 
 using namespace diptych;
 

@@ -13,7 +13,7 @@
 #include "pack/packed_scene.h"
 #include "render/film.h"
 #include "render/film_statistics.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "generate/shapes.h"
 #include "gltf/import.h"
 

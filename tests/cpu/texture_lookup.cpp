@@ -1,7 +1,7 @@
 // Filtered texture lookups against an implementation of their own, in double.
 #include <random>
 
-#include "language/leaves.h"
+#include "leaves.h"
 #include "render_fixture.h"
 #include "film/tonemap.h"
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "../../shaders/display_colors.h"
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "gpu_fixture.h"
 #include "renderer/path_renderer.h"
 #include "render/film.h"

@@ -5,11 +5,11 @@
 #include <cstring>
 
 #include "structures/acceleration.h"
-#include "device/bindings.h"
-#include "device/commands.h"
+#include "pipelines/bindings.h"
+#include "commands/commands.h"
 #include "memory/film_memory.h"
 #include "renderer/path_renderer.h"
-#include "device/pipeline.h"
+#include "pipelines/pipeline.h"
 #include "generate/generate.h"
 #include "test_shader_binaries.h"
 #include "memory/upload.h"

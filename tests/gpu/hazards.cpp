@@ -1,5 +1,5 @@
 // Barriers between passes: enough of them, and none too many.
-#include "passes/hazards.h"
+#include "commands/hazards.h"
 
 #include <algorithm>
 #include <random>

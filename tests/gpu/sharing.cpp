@@ -3,7 +3,7 @@
 #include <cstring>
 #include <thread>
 
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "display/display_pass.h"
 #include "gpu_fixture.h"
 #include "renderer/path_renderer.h"

@@ -1,5 +1,5 @@
 // How a render is cut into dispatches; needs no device.
-#include "renderer/slices.h"
+#include "commands/slices.h"
 
 #include <map>
 #include <tuple>

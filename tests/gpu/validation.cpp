@@ -2,7 +2,7 @@
 #include "device/validation.h"
 
 #include "memory/buffer.h"
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "gpu_fixture.h"
 
 namespace diptych::tests {

@@ -2,7 +2,7 @@
 #ifndef DRAWS_H
 #define DRAWS_H
 
-#include "language/leaves.h"
+#include "leaves.h"
 
 SHARED_BEGIN
 

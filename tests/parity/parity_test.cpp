@@ -7,7 +7,7 @@
 #include <string>
 
 #include "catch.h"
-#include "device/compute_shader.h"
+#include "pipelines/compute_shader.h"
 #include "probe_inputs.h"
 #include "probe_list.h"
 #include "memory/readback.h"

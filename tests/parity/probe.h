@@ -3,7 +3,7 @@
 #ifndef PROBE_H
 #define PROBE_H
 
-#include "language/leaves.h"
+#include "leaves.h"
 #include "film/tonemap.h"
 
 SHARED_BEGIN

@@ -6,7 +6,7 @@
 
 #include "../shared/direction_chi_square.h"
 #include "catch.h"
-#include "device/compute_shader.h"
+#include "pipelines/compute_shader.h"
 #include "draws.h"
 #include "memory/readback.h"
 #include "test_shader_binaries.h"

@@ -5,7 +5,7 @@
 #include "backend/cpu_renderer.h"
 #include "oracle_renderer/oracle_renderer.h"
 #include "random_fixture.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "skipping.h"
 #if DIPTYCH_VULKAN
 #include "device/gpu.h"

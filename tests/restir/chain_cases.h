@@ -6,7 +6,7 @@
 #include "../cpu/render_fixture.h"
 #include "catch.h"
 #include "chains.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "generate/generate.h"
 
 namespace diptych::tests {

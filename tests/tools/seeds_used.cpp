@@ -10,7 +10,7 @@
 #include "session/backend.h"
 #include "backend/cpu_renderer.h"
 #include "commands/program.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 
 using namespace diptych;
 using diptych::image_tests::TemporaryFolder;

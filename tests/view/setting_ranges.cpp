@@ -9,7 +9,7 @@
 #include "commands/arguments/arguments.h"
 #include "catch.h"
 #include "render/metadata.h"
-#include "render/setting_ranges.h"
+#include "settings/ranges.h"
 #include "view/view_state.h"
 
 using namespace diptych;

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "../../shaders/display.h"
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "passes/pass_table.h"
 #include "memory/readback.h"
 #include "shader_binaries.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "memory/device_film.h"
+#include "renderer/device_film.h"
 #include "image/image.h"
 #include "image/tonemap_image.h"
 

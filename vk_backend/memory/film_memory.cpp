@@ -1,6 +1,6 @@
 #include "memory/film_memory.h"
 
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "memory/readback.h"
 #include "language/scene_features.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "memory/buffer.h"
-#include "passes/recorder.h"
+#include "commands/recorder.h"
 #include "render/film.h"
 #include "memory/scene_addresses.h"
 

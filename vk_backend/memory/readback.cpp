@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "device/commands.h"
+#include "commands/commands.h"
 
 namespace diptych {
 

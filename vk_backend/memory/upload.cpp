@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "language/compat.h"
 
 namespace diptych {

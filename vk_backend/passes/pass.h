@@ -5,9 +5,9 @@
 
 #include "../../shaders/dispatch.h"
 #include "../../shaders/wave.h"
-#include "device/bindings.h"
-#include "device/pipeline.h"
-#include "renderer/slices.h"
+#include "pipelines/bindings.h"
+#include "pipelines/pipeline.h"
+#include "commands/slices.h"
 
 namespace diptych {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/hazards.h"
-#include "device/pipeline.h"
+#include "commands/hazards.h"
+#include "pipelines/pipeline.h"
 
 namespace diptych {
 

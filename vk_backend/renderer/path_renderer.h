@@ -9,17 +9,17 @@
 
 #include "../../shaders/dispatch.h"
 #include "structures/acceleration.h"
-#include "device/bindings.h"
-#include "memory/device_film.h"
+#include "pipelines/bindings.h"
+#include "renderer/device_film.h"
 #include "structures/emitter_structure.h"
 #include "memory/film_memory.h"
 #include "passes/path_waves.h"
-#include "device/pipeline.h"
+#include "pipelines/pipeline.h"
 #include "device/pipeline_cache.h"
 #include "passes/resampling_passes.h"
 #include "memory/scene_memory.h"
-#include "renderer/slices.h"
-#include "device/timed_queue.h"
+#include "commands/slices.h"
+#include "commands/timed_queue.h"
 #include "renderer/vulkan_renderer.h"
 
 namespace diptych {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "memory/buffer.h"
-#include "passes/hazards.h"
+#include "commands/hazards.h"
 #include "structures/instance_groups.h"
 #include "structures/mesh_units.h"
 #include "pack/packed_scene.h"

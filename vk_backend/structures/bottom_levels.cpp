@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "structures/acceleration.h"
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "memory/upload.h"
 
 namespace diptych {

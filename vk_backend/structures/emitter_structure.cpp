@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "structures/acceleration.h"
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "pack/emitter_corners.h"
 #include "memory/upload.h"
 

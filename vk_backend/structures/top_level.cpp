@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "structures/acceleration.h"
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "memory/upload.h"
 
 namespace diptych {

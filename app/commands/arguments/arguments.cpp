@@ -9,7 +9,7 @@
 
 #include "error.h"
 #include "oracle_renderer/oracle_renderer.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 
 namespace diptych::app {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/request.h"
-#include "render/setting_ranges.h"
+#include "settings/ranges.h"
 #include "scene/scene.h"
 
 namespace CLI {

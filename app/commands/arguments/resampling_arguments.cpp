@@ -3,7 +3,7 @@
 
 #include "commands/arguments/arguments.h"
 #include "error.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 
 namespace diptych::app {
 

@@ -10,7 +10,7 @@
 #include "commands/command.h"
 #include "error.h"
 #include "session/open_session.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "console/report.h"
 #include "session/scene_setup.h"
 #include "console/step_line.h"

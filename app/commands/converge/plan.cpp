@@ -11,7 +11,7 @@
 #include "image/atomic_file.h"
 #include "oracle_renderer/oracle_renderer.h"
 #include "render/metadata.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "console/report.h"
 #include "commands/verify/report.h"
 

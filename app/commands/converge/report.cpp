@@ -6,7 +6,7 @@
 #include "build_info.h"
 #include "commands/converge/summary.h"
 #include "render/metadata.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "console/report.h"
 
 namespace diptych::app {

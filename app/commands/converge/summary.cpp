@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "stats/multiple_testing.h"
 
 namespace diptych::app {

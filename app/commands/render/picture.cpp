@@ -12,7 +12,7 @@
 #include "render/film_statistics.h"
 #include "render/progressive.h"
 #include "render/metadata.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "console/report.h"
 
 namespace diptych::app {

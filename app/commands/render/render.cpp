@@ -12,7 +12,7 @@
 #include "console/interrupt.h"
 #include "commands/render/live_view.h"
 #include "session/open_session.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "commands/render/picture.h"
 #include "commands/render/sequence.h"
 #include "console/report.h"

@@ -6,7 +6,7 @@
 #include "commands/arguments/backend_pair.h"
 #include "commands/command.h"
 #include "error.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "commands/replay/text.h"
 #include "console/report.h"
 #include "session/scene_setup.h"

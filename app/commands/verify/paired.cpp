@@ -13,7 +13,7 @@
 #include "image/image_file.h"
 #include "render/paired_test.h"
 #include "render/metadata.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "console/report.h"
 #include "session/scene_setup.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands/arguments/backend_pair.h"
-#include "render/settings.h"
+#include "settings/settings.h"
 
 namespace diptych::app {
 

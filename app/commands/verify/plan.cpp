@@ -5,7 +5,7 @@
 #include "session/backend.h"
 #include "error.h"
 #include "oracle_renderer/oracle_renderer.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "commands/verify/options.h"
 
 namespace diptych::app {

@@ -15,7 +15,7 @@
 #include "random_scene/judge.h"
 #include "random_scene/scene_files.h"
 #include "random_scene/shrink.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "console/report.h"
 #include "console/step_line.h"
 #include "commands/verify/report.h"

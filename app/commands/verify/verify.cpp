@@ -10,7 +10,7 @@
 #include "commands/command.h"
 #include "error.h"
 #include "console/interrupt.h"
-#include "render/settings_names.h"
+#include "settings/names.h"
 #include "console/report.h"
 #include "pose/pose.h"
 #include "session/scene_setup.h"

@@ -1,4 +1,4 @@
-#include "device/pipeline.h"
+#include "pipelines/pipeline.h"
 
 #include <array>
 #include <cstddef>

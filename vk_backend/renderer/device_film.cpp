@@ -1,8 +1,8 @@
-#include "memory/device_film.h"
+#include "renderer/device_film.h"
 
 #include <algorithm>
 
-#include "device/commands.h"
+#include "commands/commands.h"
 #include "language/scene_features.h"
 
 namespace diptych {

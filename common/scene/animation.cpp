@@ -1,4 +1,4 @@
-#include "pose/animation.h"
+#include "scene/animation.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "passes/recorder.h"
+#include "commands/recorder.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "renderer/slices.h"
+#include "commands/slices.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include <initializer_list>
 
-#include "passes/hazards.h"
+#include "commands/hazards.h"
 #include "device/vulkan_headers.h"
 
 namespace diptych {

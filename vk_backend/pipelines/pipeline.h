@@ -5,7 +5,7 @@
 #include <span>
 
 #include "memory/buffer.h"
-#include "passes/recorder.h"
+#include "commands/recorder.h"
 
 namespace diptych {
 

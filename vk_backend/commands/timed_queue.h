@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "device/commands.h"
+#include "commands/commands.h"
 
 namespace diptych {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/settings.h"
+#include "settings/settings.h"
 
 namespace diptych {
 

@@ -1,4 +1,4 @@
-#include "passes/hazards.h"
+#include "commands/hazards.h"
 
 #include "language/compat.h"
 

@@ -1,4 +1,4 @@
-#include "render/settings_names.h"
+#include "settings/names.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "memory/buffer.h"
-#include "device/pipeline.h"
+#include "pipelines/pipeline.h"
 #include "memory/scene_addresses.h"
 #include "language/scene_types.h"
 

@@ -1,5 +1,5 @@
 #include "clock.h"
-#include "device/timed_queue.h"
+#include "commands/timed_queue.h"
 
 #include <algorithm>
 #include <cassert>

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "device/gpu.h"
-#include "passes/recorder.h"
+#include "commands/recorder.h"
 
 namespace diptych {
 

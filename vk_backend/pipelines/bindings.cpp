@@ -1,4 +1,4 @@
-#include "device/bindings.h"
+#include "pipelines/bindings.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "image/near_miss.h"
+#include "near_miss.h"
 
 #include <algorithm>
 #include <numeric>

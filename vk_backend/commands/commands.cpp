@@ -1,4 +1,4 @@
-#include "device/commands.h"
+#include "commands/commands.h"
 
 #include <cstdint>
 #include <exception>

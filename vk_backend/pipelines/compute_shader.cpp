@@ -1,8 +1,8 @@
-#include "device/compute_shader.h"
+#include "pipelines/compute_shader.h"
 
 #include <vector>
 
-#include "device/commands.h"
+#include "commands/commands.h"
 
 namespace diptych {
 

@@ -1,4 +1,4 @@
-#include "render/setting_ranges.h"
+#include "settings/ranges.h"
 
 #include <algorithm>
 #include <cctype>
