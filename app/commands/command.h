@@ -3,13 +3,13 @@
 
 #include <functional>
 
+#include "console/exit_codes.h"
+
 namespace CLI {
 class App;
 }  // namespace CLI
 
 namespace diptych::app {
-
-enum ExitCode { exit_done = 0, exit_check_failed = 1, exit_bad_input = 2, exit_no_device = 3, exit_interrupted = 130 };
 
 /// Returns the exit code; throws Error and NoDevice.
 using Run = std::function<int()>;

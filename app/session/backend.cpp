@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "backend/cpu_renderer.h"
-#include "commands/command.h"
+#include "console/exit_codes.h"
 #include "error.h"
 #include "oracle_renderer/oracle_renderer.h"
 #include "console/report.h"

@@ -168,13 +168,10 @@ void place_camera(const RenderRequest& request, Scene& scene) {
 
 }  // namespace
 
-Scene prepare_scene(RenderArguments& arguments) {
-    RenderRequest& request = arguments.request;
+Scene place_requested(RenderRequest& request) {
     Scene scene = load_requested(request);
     place_lights(request, scene);
     place_camera(request, scene);
-    resolve_size(arguments, scene.cameras[static_cast<std::size_t>(request.settings.camera)]);
-    report_warnings(scene.warnings);
     return scene;
 }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "commands/replay/rows.h"
+#include "measure/replay_rows.h"
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 

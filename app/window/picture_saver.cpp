@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "commands/render/picture.h"
+#include "render/save_film.h"
 
 namespace diptych::app {
 

@@ -55,9 +55,7 @@ void PixelReplay::take(Answer& answer) {
     } catch (const Error& error) {
         error_ = error.what();
     }
-    if (result_.paths.size() > 1) {
-        result_.parting = find_parting(result_.paths[0], result_.paths[1], tolerance);
-    }
+    compare_paths(result_);
 }
 
 }  // namespace diptych::app

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/replay/text.h"
+#include "measure/replay.h"
 #include "view/frame_loop.h"
 
 namespace diptych::app {

@@ -1,6 +1,6 @@
 #include "window/view_window.h"
 
-#include "commands/command.h"
+#include "console/exit_codes.h"
 #include "window/open_view.h"
 
 namespace diptych::app {

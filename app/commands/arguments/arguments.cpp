@@ -8,7 +8,9 @@
 #include <cmath>
 
 #include "error.h"
+#include "console/report.h"
 #include "oracle_renderer/oracle_renderer.h"
+#include "session/scene_setup.h"
 #include "settings/names.h"
 
 namespace diptych::app {
@@ -212,6 +214,13 @@ void resolve_size(RenderArguments& arguments, const Camera& camera) {
     if (static_cast<long long>(settings.width) * settings.height > largest_area) {
         refuse_size(text, fmt::format("has more than {} pixels", largest_area));
     }
+}
+
+Scene prepare_scene(RenderArguments& arguments) {
+    Scene scene = place_requested(arguments.request);
+    resolve_size(arguments, scene.cameras[static_cast<std::size_t>(arguments.request.settings.camera)]);
+    report_warnings(scene.warnings);
+    return scene;
 }
 
 }  // namespace diptych::app

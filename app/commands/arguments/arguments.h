@@ -76,6 +76,10 @@ void add_display_options(CLI::App& command, double& exposure, std::string& tonem
 /// Names to values, and options that contradict the backend refused. Throws Error naming the option.
 void resolve_names(RenderArguments& arguments);
 
+/// The scene as the options have it, and with its camera the picture's size; its warnings reported, once each. Throws
+/// Error.
+Scene prepare_scene(RenderArguments& arguments);
+
 /// "WxH", or a height to which the camera's aspect gives the width; empty is 512 high. Throws Error.
 void resolve_size(RenderArguments& arguments, const Camera& camera);
 

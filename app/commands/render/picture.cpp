@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "image/image_file.h"
-#include "image/tonemap_image.h"
 #include "commands/render/live_view.h"
 #include "pack/features.h"
 #include "console/progress_line.h"
@@ -18,21 +16,6 @@
 namespace diptych::app {
 
 namespace {
-
-void save(const RenderRequest& request, const LayeredImage& layers) {
-    switch (image_format(request.output)) {
-    case ImageFormat::Exr:
-        write_exr(request.output, layers);
-        break;
-    case ImageFormat::Png:
-        write_png(request.output,
-                  tonemapped(layers.color, tonemap_from_name(request.tonemap), static_cast<float>(request.exposure)));
-        break;
-    case ImageFormat::Hdr:
-        write_hdr(request.output, layers.color);
-        break;
-    }
-}
 
 /// Some pixels have more samples than others.
 bool is_uneven(const Film& film) {
@@ -87,13 +70,6 @@ nlohmann::ordered_json to_json(const RenderRequest& request, const RenderOutcome
 }
 
 }  // namespace
-
-LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome) {
-    LayeredImage layers = develop(film);
-    layers.metadata = render_metadata(request, outcome);
-    save(request, layers);
-    return layers;
-}
 
 Picture render_picture(Session& session, const RenderRequest& request, const std::atomic<bool>& cancel,
                        const PictureAudience& audience) {

@@ -7,6 +7,7 @@
 
 #include "render/metadata.h"
 #include "render/request.h"
+#include "render/save_film.h"
 #include "render/session.h"
 
 namespace diptych::app {
@@ -16,10 +17,6 @@ struct Picture {
     bool saved = false;  // not where an interrupt came before the first sample
     bool interrupted = false;
 };
-
-/// Develops the film and writes request.output with the metadata of both, by its extension; returns what it wrote.
-/// Throws Error.
-LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome);
 
 class LiveView;
 

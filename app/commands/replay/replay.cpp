@@ -72,18 +72,8 @@ int run_replay(ReplayOptions options) {
                                 settings.width, settings.height));
     }
     const shared::PathQuery query{{options.pixel[0], options.pixel[1]}, options.sample};
-    Replay replay;
-    replay.tolerance = options.tolerance;
-    replay.origin = glm::dvec3(scene.cameras[static_cast<std::size_t>(settings.camera)].camera_to_world[3]);
     std::vector<Session> sessions = open_sessions(scene, settings, options.pair);
-    for (Session& session : sessions) {
-        replay.backends.push_back(session.renderer().backend());
-        replay.devices.push_back(session.renderer().device());
-        replay.paths.push_back(session.renderer().record_paths({&query, 1}).front());
-    }
-    if (replay.paths.size() > 1) {
-        replay.parting = find_parting(replay.paths[0], replay.paths[1], options.tolerance);
-    }
+    const Replay replay = replay_path(sessions, query, options.tolerance);
     print_result(options, replay, sessions.front().packed().constants);
     return exit_done;
 }

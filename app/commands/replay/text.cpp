@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "commands/replay/rows.h"
+#include "measure/replay_rows.h"
 
 namespace diptych::app {
 
@@ -83,22 +83,6 @@ std::string replay_text(const Replay& replay, const shared::RenderConstants& con
         }
     }
     return text;
-}
-
-std::string parting_text(const Replay& replay) {
-    if (!replay.parting) {
-        return fmt::format("No vertex differs by more than {:g}.", replay.tolerance);
-    }
-    const Parting& parting = *replay.parting;
-    if (parting.field == RecordField::radiance) {
-        return fmt::format("No vertex differs by more than {:g}, but the radiance does: by {:.2g}.", replay.tolerance,
-                           parting.difference);
-    }
-    if (parting.field == RecordField::length) {
-        return fmt::format("They part at vertex {}: only one path goes on.", parting.vertex);
-    }
-    return fmt::format("They part at vertex {}: {} differs by {:.2g} (tolerance {:g}).", parting.vertex,
-                       name_of(parting.field), parting.difference, replay.tolerance);
 }
 
 nlohmann::ordered_json replay_json(const Replay& replay, const shared::RenderConstants& constants) {

@@ -1,11 +1,11 @@
-#include "commands/replay/rows.h"
+#include "measure/replay_rows.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
-namespace diptych::app {
+namespace diptych {
 
 namespace {
 
@@ -189,4 +189,4 @@ std::vector<ReplayGroup> replay_groups(const Replay& replay, const shared::Rende
     return groups;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych

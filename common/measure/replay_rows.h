@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "commands/replay/text.h"
+#include "measure/replay.h"
 
-namespace diptych::app {
+namespace diptych {
 
 struct ReplayRow {
     std::string label;               // what belongs to the row above begins with two spaces
@@ -29,4 +29,4 @@ std::string light_text(std::uint32_t id, const shared::RenderConstants* constant
 std::string lobe_text(std::uint32_t lobe);
 std::string shadow_text(std::uint32_t shadow);
 
-}  // namespace diptych::app
+}  // namespace diptych
