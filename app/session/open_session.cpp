@@ -50,4 +50,8 @@ Session open_played(const Scene& scene, RenderRequest request) {
     return open_session(scene, request, Moment());
 }
 
+Session open_requested(const Scene& scene, const RenderRequest& request, bool plays) {
+    return plays ? open_played(scene, request) : open_session(scene, request);
+}
+
 }  // namespace diptych::app

@@ -16,6 +16,9 @@ Session open_session(const Scene& scene, const RenderRequest& request);
 /// To be shown other moments, `moment` first.
 Session open_session(const Scene& scene, const RenderRequest& request, const Moment& moment);
 
+/// Either, for engines (measure/open_session.h).
+Session open_requested(const Scene& scene, const RenderRequest& request, bool plays);
+
 /// To play the frames of the request's sequence: settings.moves is put in place where they look back to one another.
 Session open_played(const Scene& scene, RenderRequest request);
 

@@ -49,14 +49,6 @@ void check_backend_options(const VerifyOptions& options, const std::vector<PairN
 
 }  // namespace
 
-std::string text_of(const SideName& side) {
-    return fmt::format("{}/{}", side.backend, side.backend == "oracle" ? side.oracle_mode : name_of(side.integrator));
-}
-
-std::string text_of(const PairName& pair) {
-    return text_of(pair.a) + " - " + text_of(pair.b) + (pair.frame ? fmt::format(", frame {}", *pair.frame) : "");
-}
-
 std::vector<PairName> plan_pairs(const VerifyOptions& options) {
     check_distinct("--backends", options.backends);
     check_distinct("--integrators", options.integrators);

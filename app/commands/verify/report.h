@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "commands/verify/suite.h"
+#include "commands/verify/options.h"
+#include "measure/verify_suite.h"
 
 namespace diptych::app {
 

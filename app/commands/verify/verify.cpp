@@ -13,6 +13,7 @@
 #include "settings/names.h"
 #include "console/report.h"
 #include "pose/pose.h"
+#include "session/open_session.h"
 #include "session/scene_setup.h"
 #include "commands/verify/paired.h"
 #include "commands/verify/random.h"
@@ -163,7 +164,7 @@ int run_verify(VerifyOptions options) {
     {
         InterruptGuard interrupt;
         RunLine line(options.runs);
-        suite = run_suite(options, pairs, scene, seed, interrupt.requested(),
+        suite = run_suite(options, {scene, options.arguments.request, open_requested}, pairs, seed, interrupt.requested(),
                           [&](const SideName& side, std::uint32_t run) { line.show(side, run); });
     }
     if (!suite) {

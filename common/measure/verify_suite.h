@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "stats/bias_verdict.h"
-#include "commands/verify/sides.h"
+#include "measure/verify_sides.h"
 
-namespace diptych::app {
+namespace diptych {
 
 struct PairResult {
     PairName names;
@@ -34,8 +34,8 @@ struct SuiteResult {
 /// and four times the samples, and fail only below a tenth of alpha. With a time limit, the samples of all runs are
 /// doubled until every pair has power or the time is used up; when to stop depends on the noise alone, not on the
 /// difference, so it does not bend the p-values.
-std::optional<SuiteResult> run_suite(const VerifyOptions& options, const std::vector<PairName>& pairs,
-                                     const Scene& scene, std::uint32_t seed, const std::atomic<bool>& cancel,
+std::optional<SuiteResult> run_suite(const VerifySettings& settings, const VerifySubject& subject,
+                                     const std::vector<PairName>& pairs, std::uint32_t seed, const std::atomic<bool>& cancel,
                                      const RunHook& hook);
 
-}  // namespace diptych::app
+}  // namespace diptych

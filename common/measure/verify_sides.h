@@ -11,9 +11,17 @@
 #include "render/frames.h"
 #include "render/seeds.h"
 #include "render/session.h"
-#include "commands/verify/options.h"
+#include "measure/open_session.h"
+#include "measure/verify_settings.h"
 
-namespace diptych::app {
+namespace diptych {
+
+/// What is rendered, and on what.
+struct VerifySubject {
+    const Scene& scene;  // at rest
+    RenderRequest request;  // its settings and sequence, device and threads
+    OpenSession open;
+};
 
 /// Called before each run of a side, from the thread that renders it.
 using RunHook = std::function<void(const SideName& side, std::uint32_t run)>;
@@ -22,8 +30,8 @@ class VerifySide {
 public:
     /// Run k has the seeds of run k of the given side of `seeds`: one for each chain that it plays, or for each frame
     /// judged. `frames` are those of a sequence to be judged, in rising order; none: the scene at rest. `sample_count`
-    /// is what a Hammersley set is laid out for. `scene` must live as long. Throws NoDevice and Error.
-    VerifySide(const SideName& name, const Scene& scene, const VerifyOptions& options,
+    /// is what a Hammersley set is laid out for. The subject's scene must live as long. Throws NoDevice and Error.
+    VerifySide(const SideName& name, const VerifySubject& subject, const VerifySettings& settings,
                const std::vector<std::uint32_t>& frames, const SeedPlan& seeds, std::uint32_t side,
                std::uint32_t sample_count);
 
@@ -62,4 +70,4 @@ private:
     std::uint64_t nonfinite_ = 0;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych

@@ -1,4 +1,4 @@
-#include "commands/verify/suite.h"
+#include "measure/verify_suite.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "clock.h"
 
-namespace diptych::app {
+namespace diptych {
 
 namespace {
 
@@ -42,19 +42,19 @@ struct Sides {
     std::vector<std::pair<std::size_t, std::size_t>> of_pair;  // indices
     std::uint64_t chain_step = 0;
 
-    Sides(const Stage& stage, const Scene& scene, const VerifyOptions& options) {
+    Sides(const Stage& stage, const VerifySubject& subject, const VerifySettings& settings) {
         for (const PairName& pair : stage.pairs) {
             const std::size_t a = want(pair.a, false, pair.frame);
             of_pair.emplace_back(a, want(pair.b, true, pair.frame));
         }
-        const auto count = static_cast<std::uint32_t>(options.common_seeds ? 1 : wanted.size());
-        const SeedPlan seeds(stage.seed, stage.purpose, count, options.runs);
+        const auto count = static_cast<std::uint32_t>(settings.common_seeds ? 1 : wanted.size());
+        const SeedPlan seeds(stage.seed, stage.purpose, count, settings.runs);
         chain_step = seeds.part_step();
         for (Wanted& side : wanted) {
             std::sort(side.frames.begin(), side.frames.end());
             side.frames.erase(std::unique(side.frames.begin(), side.frames.end()), side.frames.end());
-            const auto place = static_cast<std::uint32_t>(options.common_seeds ? 0 : all.size());
-            all.emplace_back(side.name, scene, options, side.frames, seeds, place,
+            const auto place = static_cast<std::uint32_t>(settings.common_seeds ? 0 : all.size());
+            all.emplace_back(side.name, subject, settings, side.frames, seeds, place,
                              side.is_reference ? stage.reference_spp : stage.spp);
         }
     }
@@ -91,13 +91,13 @@ struct Sides {
 };
 
 std::vector<TileComparison> compare(const std::vector<PairName>& pairs, const Sides& sides, bool common_seeds,
-                                    const TileTestOptions& options = {}) {
+                                    const TileTestOptions& of_test = {}) {
     std::vector<TileComparison> comparisons;
     const auto test = common_seeds ? compare_common_runs : compare_runs;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const auto [a, b] = sides.of_pair[i];
         const auto frame = pairs[i].frame;
-        comparisons.push_back(test(sides.all[a].runs(frame), sides.all[b].runs(frame), options));
+        comparisons.push_back(test(sides.all[a].runs(frame), sides.all[b].runs(frame), of_test));
     }
     return comparisons;
 }
@@ -109,30 +109,30 @@ std::uint32_t next_extension(std::uint32_t spp, double rendering_seconds, double
 }
 
 /// The next number of samples that chains of so many samples a frame can give.
-std::uint32_t whole_chains(std::uint32_t samples, const VerifyOptions& options) {
-    return (samples + options.frame_spp - 1) / options.frame_spp * options.frame_spp;
+std::uint32_t whole_chains(std::uint32_t samples, const VerifySettings& settings) {
+    return (samples + settings.frame_spp - 1) / settings.frame_spp * settings.frame_spp;
 }
 
-bool render_stage(const Stage& stage, Sides& sides, const VerifyOptions& options, const std::atomic<bool>& cancel,
+bool render_stage(const Stage& stage, Sides& sides, const VerifySettings& settings, const std::atomic<bool>& cancel,
                   const RunHook& hook) {
     const double start = now_seconds();
     if (stage.seconds == 0) {
         return sides.extend(stage.spp, stage.reference_spp, cancel, hook);
     }
-    std::uint32_t samples = whole_chains(first_spp, options);
+    std::uint32_t samples = whole_chains(first_spp, settings);
     while (samples > 0) {
         if (!sides.extend(samples, samples, cancel, hook)) {
             return false;
         }
         const double rendering = now_seconds() - start;
         const std::vector<TileComparison> comparisons =
-            compare(stage.pairs, sides, options.common_seeds, {.resamplings = 0});  // for their widths
+            compare(stage.pairs, sides, settings.common_seeds, {.resamplings = 0});  // for their widths
         if (std::all_of(comparisons.begin(), comparisons.end(),
                         [&](const TileComparison& c) { return has_power(c, stage.limits); })) {
             break;
         }
         samples =
-            whole_chains(next_extension(sides.all.front().spp(), rendering, start + stage.seconds - now_seconds()), options);
+            whole_chains(next_extension(sides.all.front().spp(), rendering, start + stage.seconds - now_seconds()), settings);
         for (const VerifySide& side : sides.all) {  // as many as there are seeds for
             samples = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples, side.most_spp() - side.spp()));
         }
@@ -140,13 +140,13 @@ bool render_stage(const Stage& stage, Sides& sides, const VerifyOptions& options
     return true;
 }
 
-std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Scene& scene, const VerifyOptions& options,
+std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const VerifySubject& subject, const VerifySettings& settings,
                                                  const std::atomic<bool>& cancel, const RunHook& hook) {
-    Sides sides(stage, scene, options);
-    if (!render_stage(stage, sides, options, cancel, hook)) {
+    Sides sides(stage, subject, settings);
+    if (!render_stage(stage, sides, settings, cancel, hook)) {
         return std::nullopt;
     }
-    const std::vector<TileComparison> comparisons = compare(stage.pairs, sides, options.common_seeds);
+    const std::vector<TileComparison> comparisons = compare(stage.pairs, sides, settings.common_seeds);
     const std::vector<PairVerdict> verdicts = judge(comparisons, stage.limits);
     std::vector<PairResult> results;
     for (std::size_t i = 0; i < stage.pairs.size(); ++i) {
@@ -175,7 +175,7 @@ std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Scene
 }
 
 /// The pairs that failed get another chance, with seeds of their own; what they say then stands.
-bool run_second_stage(Stage stage, const Scene& scene, const VerifyOptions& options, const std::atomic<bool>& cancel,
+bool run_second_stage(Stage stage, const VerifySubject& subject, const VerifySettings& settings, const std::atomic<bool>& cancel,
                       const RunHook& hook, std::vector<PairResult>& results) {
     std::vector<std::size_t> failed;
     stage.pairs.clear();
@@ -194,7 +194,7 @@ bool run_second_stage(Stage stage, const Scene& scene, const VerifyOptions& opti
     stage.reference_spp = second_stage_spp * results[failed.front()].spp_b;
     stage.seconds = 0;
     stage.limits.alpha *= second_stage_alpha;
-    const std::optional<std::vector<PairResult>> again = run_stage(stage, scene, options, cancel, hook);
+    const std::optional<std::vector<PairResult>> again = run_stage(stage, subject, settings, cancel, hook);
     for (std::size_t i = 0; again && i < failed.size(); ++i) {
         results[failed[i]] = (*again)[i];
     }
@@ -203,30 +203,29 @@ bool run_second_stage(Stage stage, const Scene& scene, const VerifyOptions& opti
 
 }  // namespace
 
-std::optional<SuiteResult> run_suite(const VerifyOptions& options, const std::vector<PairName>& pairs,
-                                     const Scene& scene, std::uint32_t seed, const std::atomic<bool>& cancel,
+std::optional<SuiteResult> run_suite(const VerifySettings& settings, const VerifySubject& subject,
+                                     const std::vector<PairName>& pairs, std::uint32_t seed, const std::atomic<bool>& cancel,
                                      const RunHook& hook) {
     const double start = now_seconds();
-    const RenderSettings& settings = options.arguments.request.settings;
     Stage stage;
     stage.pairs = pairs;
     stage.seed = seed;
-    stage.spp = options.spp;
-    stage.reference_spp = options.against_spp > 0 ? options.against_spp : options.spp;
-    stage.seconds = options.seconds * (options.fresh_seeds ? first_stage_time : 1);
-    stage.limits.alpha = options.alpha;
-    stage.limits.max_half_width = options.max_half_width;
-    stage.limits.max_tile_half_width = options.max_tile_half_width;
-    std::optional<std::vector<PairResult>> results = run_stage(stage, scene, options, cancel, hook);
-    if (!results || (options.fresh_seeds && !run_second_stage(stage, scene, options, cancel, hook, *results))) {
+    stage.spp = settings.spp;
+    stage.reference_spp = settings.against_spp > 0 ? settings.against_spp : settings.spp;
+    stage.seconds = settings.seconds * (settings.fresh_seeds ? first_stage_time : 1);
+    stage.limits.alpha = settings.alpha;
+    stage.limits.max_half_width = settings.max_half_width;
+    stage.limits.max_tile_half_width = settings.max_tile_half_width;
+    std::optional<std::vector<PairResult>> results = run_stage(stage, subject, settings, cancel, hook);
+    if (!results || (settings.fresh_seeds && !run_second_stage(stage, subject, settings, cancel, hook, *results))) {
         return std::nullopt;
     }
     SuiteResult suite;
     suite.pairs = std::move(*results);
-    suite.grid = tile_grid(settings.width, settings.height, options.tile);
+    suite.grid = tile_grid(subject.request.settings.width, subject.request.settings.height, settings.tile);
     suite.seed = seed;
     suite.seconds = now_seconds() - start;
     return suite;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych

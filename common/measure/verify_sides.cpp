@@ -1,19 +1,18 @@
-#include "commands/verify/sides.h"
+#include "measure/verify_sides.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "session/open_session.h"
 
-namespace diptych::app {
+namespace diptych {
 
-VerifySide::VerifySide(const SideName& name, const Scene& scene, const VerifyOptions& options,
+VerifySide::VerifySide(const SideName& name, const VerifySubject& subject, const VerifySettings& settings,
                        const std::vector<std::uint32_t>& frames, const SeedPlan& seeds, std::uint32_t side,
                        std::uint32_t sample_count)
-    : name_(name), tile_(options.tile), seeds_(seeds), side_(side), run_count_(options.runs),
-      frame_spp_(options.frame_spp), frames_(frames),
-      runs_(std::max<std::size_t>(frames.size(), 1), std::vector<RunMeans>(options.runs)) {
-    RenderRequest request = options.arguments.request;
+    : name_(name), tile_(settings.tile), seeds_(seeds), side_(side), run_count_(settings.runs),
+      frame_spp_(settings.frame_spp), frames_(frames),
+      runs_(std::max<std::size_t>(frames.size(), 1), std::vector<RunMeans>(settings.runs)) {
+    RenderRequest request = subject.request;
     request.backend = name.backend;
     request.settings.integrator = name.integrator;
     request.oracle_mode = name.oracle_mode;
@@ -26,9 +25,9 @@ VerifySide::VerifySide(const SideName& name, const Scene& scene, const VerifyOpt
         request.validation = false;
     }
     if (!frames.empty()) {
-        moments_.emplace(scene, request);
+        moments_.emplace(subject.scene, request);
     }
-    session_ = std::make_unique<Session>(moments_ ? open_played(scene, request) : open_session(scene, request));
+    session_ = std::make_unique<Session>(subject.open(subject.scene, request, moments_.has_value()));
 }
 
 std::size_t VerifySide::place_of(std::optional<std::uint32_t> frame) const {
@@ -98,4 +97,4 @@ void VerifySide::keep(std::size_t frame, std::uint32_t run, std::uint32_t done, 
     kept = done == 0 ? means : merge_means(kept, done, means, samples);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych
