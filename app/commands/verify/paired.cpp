@@ -11,7 +11,7 @@
 #include "error.h"
 #include "image/figures.h"
 #include "image/image_file.h"
-#include "render/paired_test.h"
+#include "measure/paired_run.h"
 #include "render/metadata.h"
 #include "settings/names.h"
 #include "console/report.h"
@@ -21,58 +21,11 @@ namespace diptych::app {
 
 namespace {
 
-constexpr std::size_t paths_at_a_time = std::size_t{1} << 18U;
-
-struct PairedRun {
-    Integrator integrator = Integrator::path;
-    PairedReport report;
-    std::vector<std::string> devices;
-    double seconds = 0;
-    std::string figure;
+struct Figured {
+    PairedRun paths;
+    double seconds = 0;  // sessions included
+    std::string figure;  // file; empty where none was asked for
 };
-
-/// Walks all samples of all pixels, `spp` of one pixel after another.
-std::vector<shared::PathQuery> list_paths(std::uint64_t first, std::size_t count, std::uint32_t width,
-                                          std::uint32_t spp) {
-    std::vector<shared::PathQuery> queries(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint64_t index = first + i;
-        const auto pixel = static_cast<std::uint32_t>(index / spp);
-        queries[i] = {{pixel % width, pixel / width}, static_cast<std::uint32_t>(index % spp)};
-    }
-    return queries;
-}
-
-PairedRun run_one(const Scene& scene, RenderSettings settings, const PairArguments& pair, const PairedOptions& options,
-                  Image& differing) {
-    const Stopwatch watch;
-    std::vector<Session> sessions = open_sessions(scene, settings, pair);
-    PairedRun run;
-    run.integrator = settings.integrator;
-    for (const Session& session : sessions) {
-        run.devices.push_back(session.renderer().device());
-    }
-    PairedTest test;
-    const auto width = static_cast<std::uint32_t>(settings.width);
-    const std::uint64_t all =
-        static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height) * options.spp;
-    for (std::uint64_t first = 0; first < all; first += paths_at_a_time) {
-        const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(paths_at_a_time, all - first));
-        const std::vector<shared::PathQuery> queries = list_paths(first, count, width, options.spp);
-        const std::vector<bool> differs =
-            test.add(queries, sessions[0].renderer().summarize_paths(queries),
-                     sessions[1].renderer().summarize_paths(queries));
-        for (std::size_t i = 0; i < count; ++i) {
-            if (differs[i]) {
-                differing.at(static_cast<int>(queries[i].pixel.x), static_cast<int>(queries[i].pixel.y), 0) +=
-                    1.0F / static_cast<float>(options.spp);
-            }
-        }
-    }
-    run.report = test.report();
-    run.seconds = watch.seconds();
-    return run;
-}
 
 double percent(std::uint64_t part, std::uint64_t whole) {
     return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
@@ -83,10 +36,10 @@ double largest_z(const PairedReport& report) {
                              [](double a, double b) { return std::abs(a) < std::abs(b); });
 }
 
-void print_report(RenderRequest request, const PairedRun& run) {
-    request.settings.integrator = run.integrator;
-    const PairedReport& report = run.report;
-    fmt::print("{}: {} paths, {:.4f} % decided alike, of these worst difference {:.2e}", name_of(run.integrator),
+void print_report(RenderRequest request, const Figured& run) {
+    request.settings.integrator = run.paths.integrator;
+    const PairedReport& report = run.paths.report;
+    fmt::print("{}: {} paths, {:.4f} % decided alike, of these worst difference {:.2e}", name_of(run.paths.integrator),
                report.paths, percent(report.alike, report.paths), report.worst_relative);
     fmt::print("{}\n", report.drifted > 0 ? fmt::format(", {} beyond 1e-3", report.drifted) : "");
     fmt::print("  {:>8} {:>12} {:>10} {:>12}\n", "vertex", "paths", "parted", "fraction");
@@ -123,11 +76,11 @@ nlohmann::ordered_json examples_json(const std::vector<PairedExample>& examples)
     return json;
 }
 
-nlohmann::ordered_json run_json(const PairedRun& run) {
-    const PairedReport& report = run.report;
+nlohmann::ordered_json run_json(const Figured& run) {
+    const PairedReport& report = run.paths.report;
     nlohmann::ordered_json json;
-    json["integrator"] = name_of(run.integrator);
-    json["devices"] = run.devices;
+    json["integrator"] = name_of(run.paths.integrator);
+    json["devices"] = run.paths.devices;
     json["paths"] = report.paths;
     json["alike_percent"] = percent(report.alike, report.paths);
     json["worst_relative"] = report.worst_relative;
@@ -152,10 +105,10 @@ nlohmann::ordered_json run_json(const PairedRun& run) {
     return json;
 }
 
-PairedVerdict worst_verdict(const std::vector<PairedRun>& runs) {
+PairedVerdict worst_verdict(const std::vector<Figured>& runs) {
     PairedVerdict worst = PairedVerdict::pass;
-    for (const PairedRun& run : runs) {
-        const PairedVerdict verdict = run.report.verdict;
+    for (const Figured& run : runs) {
+        const PairedVerdict verdict = run.paths.report.verdict;
         if (verdict == PairedVerdict::fail || worst == PairedVerdict::pass) {
             worst = verdict;
         }
@@ -178,20 +131,22 @@ int run_paired(RenderArguments arguments, const PairArguments& pair, const Paire
     }
     arguments.request.settings.sample_count = options.spp;
     const Scene scene = prepare_scene(arguments);
-    std::vector<PairedRun> runs;
+    std::vector<Figured> runs;
     for (const Integrator integrator : options.integrators) {
         RenderSettings settings = arguments.request.settings;
         settings.integrator = integrator;
-        Image differing = make_image(settings.width, settings.height, 1);
-        runs.push_back(run_one(scene, settings, pair, options, differing));
+        const Stopwatch watch;
+        std::vector<Session> sessions = open_sessions(scene, settings, pair);
+        Figured run{compare_all_paths(sessions.front(), sessions.back(), options.spp), watch.seconds(), ""};
         if (!options.folder.empty()) {
-            runs.back().figure =
+            run.figure =
                 (std::filesystem::path(options.folder) / fmt::format("paired-{}.png", name_of(integrator))).string();
-            write_png(runs.back().figure, heatmap(differing, 0, 0.1F));
+            write_png(run.figure, heatmap(run.paths.differing, 0, 0.1F));
         }
         if (!options.json) {
-            print_report(arguments.request, runs.back());
+            print_report(arguments.request, run);
         }
+        runs.push_back(std::move(run));
     }
     const PairedVerdict verdict = worst_verdict(runs);
     if (options.json) {
@@ -200,7 +155,7 @@ int run_paired(RenderArguments arguments, const PairArguments& pair, const Paire
         json["backends"] = pair.backends;
         json["verdict"] = name_of(verdict);
         json["pairs"] = nlohmann::ordered_json::array();
-        for (const PairedRun& run : runs) {
+        for (const Figured& run : runs) {
             json["pairs"].push_back(run_json(run));
         }
         print_json(json);

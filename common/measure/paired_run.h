@@ -1,0 +1,24 @@
+// Every path of a picture on two backends, from the same random numbers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+#include "render/paired_test.h"
+#include "render/session.h"
+
+namespace diptych {
+
+struct PairedRun {
+    Integrator integrator = Integrator::path;
+    PairedReport report;
+    std::vector<std::string> devices;
+    Image differing;  // one channel: the share of each pixel's paths that part or drift
+};
+
+/// Samples 0 to spp-1 of every pixel. Both sessions are of one scene at rest under the same settings. Throws Error where a
+/// backend keeps no record of its paths.
+PairedRun compare_all_paths(Session& a, Session& b, std::uint32_t spp);
+
+}  // namespace diptych
