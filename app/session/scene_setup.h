@@ -15,8 +15,8 @@ Scene place_requested(RenderRequest& request);
 /// is strict.
 void report_clips(const Scene& scene, const RenderRequest& request);
 
-/// The first half of place_requested: the file with its clips, environment and cameras, of which settings.camera becomes
-/// the request's. Says nothing: warnings are in the scene. Throws Error.
+/// The first half of place_requested: the file with its clips, environment and cameras; settings.camera becomes that of
+/// the request. Says nothing: warnings are in the scene. Throws Error.
 Scene load_requested(RenderRequest& request);
 
 }  // namespace diptych::app

@@ -43,7 +43,7 @@ public:
     /// for the next job to clear.
     void advance(const std::atomic<bool>& cancel);
 
-    /// When the next samples are due, in now_seconds: at once, but for what moves a frame later, as another job will have
+    /// When the next samples are due, by now_seconds: at once, but a frame later for what moves, as another job will have
     /// come by then.
     double resumes() const { return resumes_; }
 
@@ -69,7 +69,8 @@ private:
     void publish(bool first);
     void look();
     void say_busy(const char* what);
-    std::uint32_t samples_left() const { return ~0U - (session_ ? session_->first_sample() : 0) - samples_; }  // that still have an index
+    /// Samples that still have an index.
+    std::uint32_t samples_left() const { return ~0U - (session_ ? session_->first_sample() : 0) - samples_; }
     RenderSettings settings() const { return panel_settings(job_->state.request.settings, seed_offset_, divisor_); }
 
     RendererFactory factory_;

@@ -17,8 +17,8 @@ struct PairedRun {
     Image differing;  // one channel: the share of each pixel's paths that part or drift
 };
 
-/// Samples 0 to spp-1 of every pixel. Both sessions are of one scene at rest under the same settings. Throws Error where a
-/// backend keeps no record of its paths.
+/// Samples 0 to spp-1 of every pixel. Both sessions are of one scene at rest under the same settings. Throws Error where
+/// a backend keeps no record of its paths.
 PairedRun compare_all_paths(Session& a, Session& b, std::uint32_t spp);
 
 }  // namespace diptych

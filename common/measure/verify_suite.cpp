@@ -131,8 +131,8 @@ bool render_stage(const Stage& stage, Sides& sides, const VerifySettings& settin
                         [&](const TileComparison& c) { return has_power(c, stage.limits); })) {
             break;
         }
-        samples =
-            whole_chains(next_extension(sides.all.front().spp(), rendering, start + stage.seconds - now_seconds()), settings);
+        const double left = start + stage.seconds - now_seconds();
+        samples = whole_chains(next_extension(sides.all.front().spp(), rendering, left), settings);
         for (const VerifySide& side : sides.all) {  // as many as there are seeds for
             samples = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples, side.most_spp() - side.spp()));
         }
@@ -140,8 +140,9 @@ bool render_stage(const Stage& stage, Sides& sides, const VerifySettings& settin
     return true;
 }
 
-std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const VerifySubject& subject, const VerifySettings& settings,
-                                                 const std::atomic<bool>& cancel, const RunHook& hook) {
+std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const VerifySubject& subject,
+                                                 const VerifySettings& settings, const std::atomic<bool>& cancel,
+                                                 const RunHook& hook) {
     Sides sides(stage, subject, settings);
     if (!render_stage(stage, sides, settings, cancel, hook)) {
         return std::nullopt;
@@ -175,8 +176,8 @@ std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Verif
 }
 
 /// The pairs that failed get another chance, with seeds of their own; what they say then stands.
-bool run_second_stage(Stage stage, const VerifySubject& subject, const VerifySettings& settings, const std::atomic<bool>& cancel,
-                      const RunHook& hook, std::vector<PairResult>& results) {
+bool run_second_stage(Stage stage, const VerifySubject& subject, const VerifySettings& settings,
+                      const std::atomic<bool>& cancel, const RunHook& hook, std::vector<PairResult>& results) {
     std::vector<std::size_t> failed;
     stage.pairs.clear();
     for (std::size_t i = 0; i < results.size(); ++i) {
@@ -204,8 +205,8 @@ bool run_second_stage(Stage stage, const VerifySubject& subject, const VerifySet
 }  // namespace
 
 std::optional<SuiteResult> run_suite(const VerifySettings& settings, const VerifySubject& subject,
-                                     const std::vector<PairName>& pairs, std::uint32_t seed, const std::atomic<bool>& cancel,
-                                     const RunHook& hook) {
+                                     const std::vector<PairName>& pairs, std::uint32_t seed,
+                                     const std::atomic<bool>& cancel, const RunHook& hook) {
     const double start = now_seconds();
     Stage stage;
     stage.pairs = pairs;

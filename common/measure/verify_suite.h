@@ -35,7 +35,7 @@ struct SuiteResult {
 /// doubled until every pair has power or the time is used up; when to stop depends on the noise alone, not on the
 /// difference, so it does not bend the p-values.
 std::optional<SuiteResult> run_suite(const VerifySettings& settings, const VerifySubject& subject,
-                                     const std::vector<PairName>& pairs, std::uint32_t seed, const std::atomic<bool>& cancel,
-                                     const RunHook& hook);
+                                     const std::vector<PairName>& pairs, std::uint32_t seed,
+                                     const std::atomic<bool>& cancel, const RunHook& hook);
 
 }  // namespace diptych

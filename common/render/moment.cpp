@@ -21,8 +21,7 @@ auto tie_settings(const RenderSettings& s) {
                     s.sample_count, s.camera, s.standard_error, s.first_hit_layers, s.generic, s.moves, s.atlas_tile);
 }
 
-/// What of a camera decides which code and which film is needed, and not only where its rays go. Of a camera that is the
-/// scene's own all of that stays.
+/// What of a camera decides which code and which film is needed. It stays for a camera that is the scene's own.
 auto features_of(const Moment& moment) {
     const bool own = !moment.camera;
     return std::tuple(own, !own && moment.camera->orthographic, !own && moment.camera->lens.radius > 0);

@@ -1,4 +1,5 @@
-// A scene on one backend, kept up with the moment and the settings it is to show. Everything that renders goes through one.
+// A scene on one backend, kept up with the moment and the settings that it is to show. Everything that renders goes
+// through a session.
 #pragma once
 
 #include <atomic>
@@ -23,8 +24,8 @@ struct SessionHooks {
     std::function<void(const std::vector<std::string>& lines)> warn;  // of each pack: what was left out
 };
 
-/// Used by one thread at a time. A scene is packed at rest first, so that origin and radius depend on no moment. Where a
-/// member throws, the session is good for nothing but to be destroyed.
+/// Used by one thread at a time. A scene is packed at rest first, so that origin and radius depend on no moment. A session
+/// of which a member has thrown can only be destroyed.
 class Session {
 public:
     /// A session at rest, for a scene that stays as it is: nothing of it is copied. `scene` must live as long.

@@ -162,7 +162,12 @@ RandomScene shrink_failing(const RandomScene& whole, const RandomPair& failed, c
     });
     JudgeOptions again = judge_with;
     again.seed += confirming_seeds;
-    return fails_alike(smaller, failed, renderers, again, file) ? smaller : whole;
+    if (fails_alike(smaller, failed, renderers, again, file)) {
+        return smaller;
+    }
+    report_warning(fmt::format("seed {}: a smaller scene failed, but not again with other seeds: written whole",
+                               failed.scene));
+    return whole;
 }
 
 std::filesystem::path failing_file(const VerifyOptions& options, const std::string& name) {

@@ -164,7 +164,8 @@ int run_verify(VerifyOptions options) {
     {
         InterruptGuard interrupt;
         RunLine line(options.runs);
-        suite = run_suite(options, {scene, options.arguments.request, open_requested}, pairs, seed, interrupt.requested(),
+        const VerifySubject subject{scene, options.arguments.request, open_requested};
+        suite = run_suite(options, subject, pairs, seed, interrupt.requested(),
                           [&](const SideName& side, std::uint32_t run) { line.show(side, run); });
     }
     if (!suite) {
