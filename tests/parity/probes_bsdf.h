@@ -24,6 +24,8 @@ FN void probe_ggx_parts(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put(o, pdf,
         ggx_d(p.facet, p.alpha) / (p.wo.z + ggx_smith_length(p.wo, p.alpha)) * (facing + dot_scale(p.wo, p.facet)));
     put_relative(o, ggx_eval(p.wo, p.wi, p.facet, p.alpha));
+    put_relative(o, ggx_stretch(p.facet.z, p.facet.x * p.facet.x + p.facet.y * p.facet.y, p.alpha * p.alpha));
+    put_relative(o, ggx_eval_of_cosines(p.wo.z, p.wi.z, p.facet.z, p.facet.x * p.facet.x + p.facet.y * p.facet.y, p.alpha));
     put_relative(o, pdf_ggx_solid_angle(p.wo, p.facet, p.alpha));
     put_relative(o, ggx_weight(p.wo, p.wi, p.alpha));
 }

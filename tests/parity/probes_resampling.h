@@ -33,6 +33,16 @@ FN void probe_reservoir(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_bits(o, floatBitsToUint(r.favor));
 }
 
+FN void probe_integrators(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    uint integrator = p.words.x % 5u;
+    put_bits(o, samples_material(integrator) ? 1u : 0u);
+    put_bits(o, samples_lights(integrator) ? 1u : 0u);
+    put_bits(o, weighs_by_mis(integrator) ? 1u : 0u);
+    put_bits(o, resamples_lights(integrator) ? 1u : 0u);
+    put_bits(o, reuses_reservoirs(integrator) ? 1u : 0u);
+    put_bits(o, floatBitsToUint(no_light().pdf));
+}
+
 FN void probe_pairwise_shares(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     float c = 1.0f + p.u.x;
     float s = c + 20.0f * p.u.y;
@@ -89,6 +99,13 @@ FN void probe_target(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
         put3(o, value, max_component(value) * scale);
         vec3 specular = target_specular(s, p.light, TARGET_COS_MIN);
         put3(o, specular, max_component(specular) * scale);
+        SeenLight light = unseen_light();
+        light.direction = p.light;
+        light.radiance = p.color;
+        light.measure = p.u.x;
+        float target = unoccluded_target(s, light);
+        put(o, target, max_component(value) * scale);
+        put_relative(o, target_of_reflectance(p.color_2, light));
     }
 }
 
@@ -158,6 +175,7 @@ FN void probe_light_cluster(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
 }
 
 #define RESAMPLING_PROBES(X)                                                                                           \
+    X(integrators, 0, 0, "comparisons of integers")                                                                    \
     X(reservoir, 8, 50, "sums, a division, products")                                                                  \
     X(pairwise_shares, 24, 0, "three divisions")                                                                       \
     X(unit_vector_packing, 8, 100, "a normalize; a coordinate may round to the next step")                             \
