@@ -1,6 +1,7 @@
 #include "catch.h"
 
 #include <algorithm>
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "process.h"
@@ -124,4 +125,16 @@ TEST_CASE("bench measures every integrator in one run", "[app]") {
         }
     }
     check_refusal(run_diptych(folder, {"bench", scene, "--integrators", "brdf,bdpt"}), 2, {"bdpt"});
+}
+
+TEST_CASE("bench ends at Ctrl-C, and says that it has no figures", "[app]") {
+    const TemporaryFolder folder;
+    Process process(folder, {"bench", generate_scene(folder, "cornell"), "--size", "16", "--frames", "10000", "--spp",
+                             "64", "--json"});
+    REQUIRE(process.wait_for_error_text("steps", 60));
+    process.send(SIGINT);
+    const ProcessResult result = process.finish();
+    CHECK(result.exit_code == 130);
+    CHECK(result.out.empty());
+    CHECK(result.err.find("cornell.glb: interrupted") != std::string::npos);
 }

@@ -3,17 +3,17 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
-#include "clock.h"
 #include "commands/arguments/arguments.h"
 #include "commands/command.h"
-#include "error.h"
-#include "session/open_session.h"
-#include "settings/names.h"
+#include "console/interrupt.h"
 #include "console/report.h"
-#include "session/scene_setup.h"
 #include "console/step_line.h"
+#include "error.h"
+#include "measure/bench.h"
+#include "session/open_session.h"
+#include "session/scene_setup.h"
+#include "settings/names.h"
 
 namespace diptych::app {
 
@@ -25,12 +25,6 @@ constexpr const char* bench_examples = R"(Examples:
   diptych bench street.glb --backend vulkan --integrators direct,ris,restir --max-depth 1
 Medians over the frames; restir's frames follow one another. The integrators take turns, so that all ratios come from one run under the same conditions.)";
 
-// Frames that do not count: two at least, since restir's first has none before it to reuse, and as many as a device
-// needs to leave its clocks of rest.
-constexpr std::uint32_t least_warm_up = 2;
-constexpr std::uint32_t most_warm_up = 1024;
-constexpr double warm_up_seconds = 0.5;
-
 struct BenchOptions {
     RenderArguments arguments;
     std::vector<std::string> integrators{"brdf", "direct", "path"};
@@ -39,212 +33,101 @@ struct BenchOptions {
     bool json = false;
 };
 
-/// One integrator on its own renderer, and the times of its frames.
-struct Entry {
-    Integrator integrator = Integrator::path;
-    std::unique_ptr<Session> session;
-    std::vector<double> frame_seconds;
-    std::optional<TraversalBench> traversal;        // of integrators that take each sample by itself
-    std::vector<std::vector<double>> pass_seconds;  // of each pass, its frames
-    double rays_per_frame = 0;
-    std::uint32_t next_frame = 0;
-};
-
-struct Figures {
-    double milliseconds = 0;  // one sample a pixel
-    double samples_per_second = 0;
-    double rays_per_second = 0;
-    double bare_rays_per_second = 0;   // 0 where that is not measured
-    double share_of_bare = 0;          // likewise
-    double cost_relative_to_brdf = 0;  // a sample; 0 where brdf was not measured
-};
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
-std::vector<Entry> make_entries(BenchOptions& options, const Scene& scene, StepLine& line) {
-    std::vector<Entry> entries;
+BenchSettings settings_of(const BenchOptions& options) {
+    BenchSettings settings;
     for (const std::string& name : options.integrators) {
-        line.begin(name + ", building");
-        RenderRequest request = options.arguments.request;
-        request.settings.integrator = integrator_from_name(name);
-        request.settings.sample_count = options.spp * (most_warm_up + static_cast<std::uint32_t>(options.frames));
-        Entry entry;
-        entry.integrator = request.settings.integrator;
-        entry.session = std::make_unique<Session>(open_session(scene, request));
-        entries.push_back(std::move(entry));
+        settings.integrators.push_back(integrator_from_name(name));
     }
-    return entries;
+    settings.spp = options.spp;
+    settings.frames = options.frames;
+    return settings;
 }
 
-void measure(Entry& entry, std::uint32_t spp) {
-    const std::atomic<bool> never = false;
-    const double before = entry.session->renderer().device_seconds();
-    const std::vector<PassTime> passes_before = entry.session->renderer().pass_times();
-    entry.session->render(entry.next_frame++ * spp, spp, never);
-    entry.frame_seconds.push_back(entry.session->renderer().device_seconds() - before);
-    const std::vector<PassTime> passes = entry.session->renderer().pass_times();
-    entry.pass_seconds.resize(passes.size());
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        entry.pass_seconds[i].push_back(passes[i].seconds - passes_before[i].seconds);
-    }
-}
-
-void warm_up(Entry& entry, std::uint32_t spp) {
-    const Stopwatch watch;
-    while (entry.next_frame < least_warm_up || (entry.next_frame < most_warm_up && watch.seconds() < warm_up_seconds)) {
-        measure(entry, spp);
-    }
-    entry.frame_seconds.clear();
-    entry.pass_seconds.clear();
-    entry.rays_per_frame = -static_cast<double>(film_totals(entry.session->film()).rays);
-}
-
-void run_rounds(std::vector<Entry>& entries, const BenchOptions& options, StepLine& line) {
-    for (Entry& entry : entries) {
-        line.begin(fmt::format("{}, warming up", name_of(entry.integrator)));
-        warm_up(entry, options.spp);
-    }
-    for (int frame = 0; frame < options.frames; ++frame) {
-        for (Entry& entry : entries) {
-            line.begin(fmt::format("{}, frame {}", name_of(entry.integrator), frame + 1));
-            measure(entry, options.spp);
-        }
-    }
-    for (Entry& entry : entries) {
-        entry.rays_per_frame += static_cast<double>(film_totals(entry.session->film()).rays);
-        entry.rays_per_frame /= options.frames;
-    }
-    for (Entry& entry : entries) {
-        if (resamples(entry.integrator)) {
-            continue;
-        }
-        line.begin(fmt::format("{}, bare traversal", name_of(entry.integrator)));
-        entry.traversal = entry.session->renderer().bench_traversal(options.spp);  // medians of its own repeats
-    }
-}
-
-std::vector<Figures> evaluate(const std::vector<Entry>& entries, const BenchOptions& options) {
-    const RenderSettings& settings = options.arguments.request.settings;
-    const double pixels = static_cast<double>(settings.width) * settings.height;
-    double brdf_seconds = 0;
-    for (const Entry& entry : entries) {
-        brdf_seconds = entry.integrator == Integrator::brdf ? median(entry.frame_seconds) : brdf_seconds;
-    }
-    std::vector<Figures> all;
-    for (const Entry& entry : entries) {
-        const double seconds = median(entry.frame_seconds);
-        Figures figures;
-        figures.milliseconds = 1000 * seconds / options.spp;
-        figures.samples_per_second = pixels * options.spp / seconds;
-        figures.rays_per_second = entry.rays_per_frame / seconds;
-        if (entry.traversal) {
-            figures.bare_rays_per_second = static_cast<double>(entry.traversal->rays) / entry.traversal->bare_seconds;
-            figures.share_of_bare = entry.traversal->bare_seconds / entry.traversal->integrator_seconds;
-        }
-        figures.cost_relative_to_brdf = brdf_seconds > 0 ? seconds / brdf_seconds : 0;
-        all.push_back(figures);
-    }
-    return all;
-}
-
-/// A sample's, each the median over the frames.
-std::vector<PassTime> median_passes(const Entry& entry, std::uint32_t spp) {
-    std::vector<PassTime> passes = entry.session->renderer().pass_times();
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        passes[i].seconds = median(entry.pass_seconds[i]) / spp;
-    }
-    return passes;
-}
-
-nlohmann::ordered_json passes_to_json(const Entry& entry, std::uint32_t spp) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const PassTime& pass : median_passes(entry, spp)) {
-        json.push_back({{"pass", pass.pass}, {"milliseconds", 1000 * pass.seconds}});
-    }
-    return json;
-}
-
-void print_bench(const std::vector<Entry>& entries, const std::vector<Figures>& all, const RenderSettings& settings,
-                 std::uint32_t spp) {
-    fmt::print("{} at {}x{}, {}\n", entries.front().session->renderer().backend(), settings.width, settings.height,
-               entries.front().session->renderer().device());
+void print_bench(const BenchResult& result, const RenderSettings& settings) {
+    fmt::print("{} at {}x{}, {}\n", result.backend, settings.width, settings.height, result.device);
     fmt::print("{:<10} {:>10} {:>12} {:>10} {:>12} {:>10} {:>10}\n", "integrator", "ms/frame", "Msamples/s", "Mray/s",
                "bare Mray/s", "of bare", "of brdf");
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const Figures& figures = all[i];
-        const std::string relative =
-            figures.cost_relative_to_brdf > 0 ? fmt::format("{:.2f}x", figures.cost_relative_to_brdf) : "-";
-        const bool bare = entries[i].traversal.has_value();
-        fmt::print("{:<10} {:>10.3f} {:>12.3f} {:>10.2f} {:>12} {:>10} {:>10}\n", name_of(entries[i].integrator),
-                   figures.milliseconds, figures.samples_per_second / 1e6, figures.rays_per_second / 1e6,
-                   bare ? fmt::format("{:.2f}", figures.bare_rays_per_second / 1e6) : "-",
-                   bare ? fmt::format("{:.1f}%", 100 * figures.share_of_bare) : "-", relative);
-        for (const PassTime& pass : median_passes(entries[i], spp)) {
+    for (const IntegratorBench& bench : result.integrators) {
+        fmt::print("{:<10} {:>10.3f} {:>12.3f} {:>10.2f} {:>12} {:>10} {:>10}\n", name_of(bench.integrator),
+                   bench.milliseconds, bench.samples_per_second / 1e6, bench.rays_per_second / 1e6,
+                   bench.bare ? fmt::format("{:.2f}", bench.bare->rays_per_second / 1e6) : "-",
+                   bench.bare ? fmt::format("{:.1f}%", 100 * bench.bare->share) : "-",
+                   bench.cost_relative_to_brdf ? fmt::format("{:.2f}x", *bench.cost_relative_to_brdf) : "-");
+        for (const PassTime& pass : bench.passes) {
             fmt::print("  {:<18} {:>10.3f}\n", pass.pass, 1000 * pass.seconds);
         }
     }
 }
 
-nlohmann::ordered_json to_json(const std::vector<Entry>& entries, const std::vector<Figures>& all,
-                               const BenchOptions& options) {
+nlohmann::ordered_json to_json(const IntegratorBench& bench) {
+    nlohmann::ordered_json json;
+    json["integrator"] = name_of(bench.integrator);
+    json["milliseconds"] = bench.milliseconds;
+    json["samples_per_second"] = bench.samples_per_second;
+    json["rays_per_second"] = bench.rays_per_second;
+    json["bare_rays_per_second"] = nullptr;
+    json["share_of_bare"] = nullptr;
+    if (bench.bare) {
+        json["bare_rays_per_second"] = bench.bare->rays_per_second;
+        json["share_of_bare"] = bench.bare->share;
+    }
+    json["cost_relative_to_brdf"] = nullptr;
+    if (bench.cost_relative_to_brdf) {
+        json["cost_relative_to_brdf"] = *bench.cost_relative_to_brdf;
+    }
+    json["build_seconds"] = bench.costs.build_seconds;
+    json["compile_seconds"] = bench.costs.compile_seconds;
+    json["passes"] = nlohmann::ordered_json::array();
+    for (const PassTime& pass : bench.passes) {
+        json["passes"].push_back({{"pass", pass.pass}, {"milliseconds", 1000 * pass.seconds}});
+    }
+    json["bytes"] = bench.costs.bytes;
+    return json;
+}
+
+nlohmann::ordered_json to_json(const BenchResult& result, const BenchOptions& options) {
     const RenderSettings& settings = options.arguments.request.settings;
     nlohmann::ordered_json json;
     json["scene"] = options.arguments.request.scene;
-    json["backend"] = entries.front().session->renderer().backend();
-    json["device"] = entries.front().session->renderer().device();
+    json["backend"] = result.backend;
+    json["device"] = result.device;
     json["width"] = settings.width;
     json["height"] = settings.height;
     json["spp"] = options.spp;
     json["frames"] = options.frames;
     json["integrators"] = nlohmann::ordered_json::array();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const Figures& figures = all[i];
-        const RendererCosts costs = entries[i].session->renderer().costs();
-        const auto relative = figures.cost_relative_to_brdf > 0 ? nlohmann::ordered_json(figures.cost_relative_to_brdf)
-                                                                : nlohmann::ordered_json();
-        const auto bare = [&](double value) {
-            return entries[i].traversal ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
-        };
-        json["integrators"].push_back({{"integrator", name_of(entries[i].integrator)},
-                                       {"milliseconds", figures.milliseconds},
-                                       {"samples_per_second", figures.samples_per_second},
-                                       {"rays_per_second", figures.rays_per_second},
-                                       {"bare_rays_per_second", bare(figures.bare_rays_per_second)},
-                                       {"share_of_bare", bare(figures.share_of_bare)},
-                                       {"cost_relative_to_brdf", relative},
-                                       {"build_seconds", costs.build_seconds},
-                                       {"compile_seconds", costs.compile_seconds},
-                                       {"passes", passes_to_json(entries[i], options.spp)},
-                                       {"bytes", costs.bytes}});
+    for (const IntegratorBench& bench : result.integrators) {
+        json["integrators"].push_back(to_json(bench));
     }
     return json;
 }
 
 int run_bench(BenchOptions options) {
     resolve_names(options.arguments);
-    if (options.arguments.request.backend == "oracle") {
+    const RenderRequest& request = options.arguments.request;
+    if (request.backend == "oracle") {
         throw Error("--backend oracle: bench measures the panels, cpu and vulkan");
     }
-    refuse_idle_resampling_options(options.arguments,
-                                   std::any_of(options.integrators.begin(), options.integrators.end(),
-                                               [](const auto& name) { return resamples(integrator_from_name(name)); }));
+    const BenchSettings settings = settings_of(options);
+    refuse_idle_resampling_options(
+        options.arguments, std::any_of(settings.integrators.begin(), settings.integrators.end(), resamples));
     const Scene scene = prepare_scene(options.arguments);
-    std::vector<Entry> entries;
+    std::optional<BenchResult> result;
     {
-        // Building, warming up, the frames and the bare traversal of each.
-        StepLine line(static_cast<int>(options.integrators.size()) * (options.frames + 3));
-        entries = make_entries(options, scene, line);
-        run_rounds(entries, options, line);
+        InterruptGuard interrupt;
+        StepLine line(bench_steps(settings));
+        result = bench_integrators(settings, scene, request, open_requested, interrupt.requested(),
+                                   [&](const std::string& step) { line.begin(step); });
     }
-    const std::vector<Figures> figures = evaluate(entries, options);
+    if (!result) {
+        report_error(
+            fmt::format("{}: interrupted before all frames were measured; there are no figures", request.scene));
+        return exit_interrupted;
+    }
     if (options.json) {
-        print_json(to_json(entries, figures, options));
+        print_json(to_json(*result, options));
     } else {
-        print_bench(entries, figures, options.arguments.request.settings, options.spp);
+        print_bench(*result, request.settings);
     }
     return exit_done;
 }
