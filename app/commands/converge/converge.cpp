@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <bit>
-#include <filesystem>
 #include <memory>
 
 #include "clock.h"
@@ -11,17 +9,16 @@
 #include "commands/converge/page.h"
 #include "commands/converge/pictures.h"
 #include "commands/converge/plan.h"
-#include "commands/converge/runner.h"
-#include "commands/converge/summary.h"
-#include "error.h"
-#include "image/atomic_file.h"
-#include "image/metrics.h"
+#include "commands/converge/report.h"
 #include "console/interrupt.h"
-#include "render/film_statistics.h"
-#include "render/metadata.h"
 #include "console/report.h"
-#include "session/scene_setup.h"
 #include "console/step_line.h"
+#include "image/atomic_file.h"
+#include "image/image_file.h"
+#include "measure/converge/measurement.h"
+#include "render/metadata.h"
+#include "session/open_session.h"
+#include "session/scene_setup.h"
 
 namespace diptych::app {
 
@@ -38,203 +35,34 @@ Renders every method --runs times, each run with a seed of its own, and measures
 pixel: error over samples and over time, its slope, what of it is bias, the time to a target. Open index.html of the folder when it is
 done. Ctrl-C stops; the same command goes on from there. What the files hold is in docs/converge.md.)";
 
-class Converge {
-public:
-    Converge(const ConvergeOptions& options, const Scene& scene, const std::vector<Method>& methods)
-        : options_(options), scene_(scene), methods_(methods), state_(options.folder),
-          line_(static_cast<int>(reference_blocks + methods.size() * (options.runs + 2))) {
-        for (const Method& method : methods_) {
-            runners_.push_back(std::make_unique<MethodRunner>(scene_, method));
-        }
+/// Writes what the results so far say into the folder; all of it as JSON.
+nlohmann::ordered_json write_report(const ConvergeOptions& options, const std::vector<Method>& methods,
+                                    const ConvergeSummary& summary, const ReferencePicture& reference,
+                                    const ConvergeState& state) {
+    nlohmann::ordered_json json = summary_to_json(options, summary, reference, state);
+    write_page_pictures(methods, reference, options.page_side, state);
+    write_file_atomically(state.path("summary.json"), json.dump(2) + "\n");
+    write_file_atomically(state.path("summary.csv"), summary_to_csv(summary));
+    write_page(json, state);
+    json["plots"] = write_plots(json, state);
+    return json;
+}
+
+/// As the options have it, and the folder claimed for it.
+ConvergeSubject plan_subject(const ConvergeOptions& options, const Scene& scene) {
+    ConvergeSubject subject{scene, plan_methods(options), {}, {}, open_requested};
+    claim_folder(options, plan_to_json(options, subject.methods));
+    if (reference_is_file(options)) {
+        const RenderSettings& settings = options.arguments.request.settings;
+        subject.given_reference = load_reference(options.reference, settings.width, settings.height);
+    } else {
+        subject.reference = plan_reference(options, subject.methods);
     }
-
-    ConvergeState& state() { return state_; }
-
-    /// False where `cancel` came before the end. What is finished is kept either way.
-    bool measure(const std::atomic<bool>& cancel) {
-        return find_limits(cancel) && find_reference(cancel) && render_runs(cancel) && render_pictures(cancel);
-    }
-
-    /// Writes what the results so far say; nothing where there are none yet.
-    std::optional<Summary> report() {
-        if (!reference_ || state_.rows().empty()) {
-            return std::nullopt;
-        }
-        Summary summary = summarize_results(options_, methods_, *reference_, state_);
-        json_ = summary_to_json(options_, summary, *reference_, state_);
-        write_page_pictures(methods_, *reference_, options_.page_side, state_);
-        write_file_atomically(state_.path("summary.json"), json_.dump(2) + "\n");
-        write_file_atomically(state_.path("summary.csv"), summary_to_csv(summary));
-        write_page(json_, state_);
-        json_["plots"] = write_plots(json_, state_);
-        return summary;
-    }
-
-    const nlohmann::ordered_json& json() const { return json_; }
-    const Reference& reference() const { return *reference_; }
-
-private:
-    std::vector<std::uint32_t> counts_of(std::size_t method) const {
-        std::vector<std::uint32_t> counts;
-        for (std::uint32_t spp = 1; spp <= limits_[method]; spp *= 2) {
-            counts.push_back(spp);
-        }
-        return counts;
-    }
-
-    bool find_limits(const std::atomic<bool>& cancel) {
-        for (std::size_t i = 0; i < methods_.size(); ++i) {
-            const nlohmann::ordered_json known = state_.latest("limit", methods_[i].name);
-            std::uint32_t limit = std::bit_floor(options_.spp_max);
-            if (!known.is_null()) {
-                limit = known.at("spp_max");
-            } else if (options_.seconds > 0) {
-                line_.begin(methods_[i].name + ", how many samples fit the time");
-                limit = runners_[i]->samples_within(options_.seconds, cancel);
-                if (limit == 0) {
-                    return false;
-                }
-                state_.append(
-                    nlohmann::ordered_json{{"kind", "limit"}, {"method", methods_[i].name}, {"spp_max", limit}});
-            }
-            limits_.push_back(limit);
-        }
-        return true;
-    }
-
-    bool find_reference(const std::atomic<bool>& cancel) {
-        const RenderSettings& settings = options_.arguments.request.settings;
-        if (reference_is_file(options_)) {
-            reference_ = load_reference(options_.reference, settings.width, settings.height);
-            return true;
-        }
-        const Method method = plan_reference(options_, methods_);
-        const std::uint32_t spp = *std::max_element(limits_.begin(), limits_.end());
-        reference_ = make_reference(scene_, method, spp, state_, cancel, [&](std::uint32_t block) {
-            line_.begin(fmt::format("reference by {}, block {} of {}", method.name, block + 1, reference_blocks));
-        });
-        return reference_.has_value();
-    }
-
-    bool render_runs(const std::atomic<bool>& cancel) {
-        for (std::size_t i = 0; i < methods_.size(); ++i) {
-            sums_.push_back(state_.load_sums(methods_[i].name));
-        }
-        for (std::uint32_t run = 0; run < options_.runs; ++run) {
-            for (std::size_t i = 0; i < methods_.size(); ++i) {
-                if (!render_run(i, run, cancel)) {
-                    return false;
-                }
-            }
-        }
-        return true;
-    }
-
-    /// Lines and sums are two files, and an end between them leaves one a run behind: that one alone is then caught up.
-    bool render_run(std::size_t index, std::uint32_t run, const std::atomic<bool>& cancel) {
-        MethodRunner& runner = *runners_[index];
-        const std::string& name = methods_[index].name;
-        std::map<std::uint32_t, DeviationSums>& sums = sums_[index];
-        const bool lacks_rows = run >= state_.runs(name);
-        const bool lacks_sums = sums.empty() || run >= sums.begin()->second.runs;
-        if (!lacks_rows && !lacks_sums) {
-            return true;
-        }
-        line_.begin(fmt::format("{}, run {} of {}", name, run + 1, options_.runs));
-        note_setup(runner);
-        const std::uint32_t seed = methods_[index].seed_of(run);
-        std::vector<ErrorRow> rows;
-        std::map<std::uint32_t, std::vector<float>> deviations;
-        const bool whole =
-            runner.run(seed, counts_of(index), cancel,
-                       [&](std::uint32_t spp, const Film& film, double device_seconds, double wall_seconds) {
-                           rows.push_back(row_of(film, device_seconds, wall_seconds));
-                           rows.back().method = name;
-                           rows.back().run = run;
-                           rows.back().seed = seed;
-                           rows.back().spp = spp;
-                           deviations[spp] = deviations_of(film);
-                       });
-        if (!whole) {
-            return false;
-        }
-        if (lacks_sums) {
-            for (const auto& [spp, values] : deviations) {
-                sums[spp].add(values);
-            }
-            state_.save_sums(name, sums);
-        }
-        if (lacks_rows) {
-            state_.append(rows);
-        }
-        return true;
-    }
-
-    bool render_pictures(const std::atomic<bool>& cancel) {
-        const double seconds = summarize_results(options_, methods_, *reference_, state_).equal_seconds;
-        for (const std::unique_ptr<MethodRunner>& runner : runners_) {
-            line_.begin(fmt::format("{}, its picture", runner->method().name));
-            if (!make_picture(*runner, seconds, *reference_, state_, cancel)) {
-                return false;
-            }
-        }
-        return true;
-    }
-
-    void note_setup(MethodRunner& runner) {
-        if (!runner.noted) {
-            const SetupCosts costs = runner.costs();
-            runner.noted = true;
-            state_.append(nlohmann::ordered_json{{"kind", "setup"},
-                                                 {"method", runner.method().name},
-                                                 {"device", runner.device()},
-                                                 {"pack_seconds", costs.pack_seconds},
-                                                 {"build_seconds", costs.build_seconds},
-                                                 {"compile_seconds", costs.compile_seconds},
-                                                 {"bytes", costs.bytes}});
-        }
-    }
-
-    ErrorRow row_of(const Film& film, double device_seconds, double wall_seconds) const {
-        const Difference difference = compare_images(develop(film), reference_->image);
-        const FilmTotals totals = film_totals(film);
-        ErrorRow row;
-        row.device_seconds = device_seconds;
-        row.wall_seconds = wall_seconds;
-        row.mse = difference.mse;
-        row.relmse = difference.relmse;
-        row.relmse_trimmed = difference.relmse_trimmed;
-        row.trimmed_energy = difference.trimmed_energy;
-        row.nonfinite = totals.nonfinite;
-        row.rays = totals.rays;
-        return row;
-    }
-
-    std::vector<float> deviations_of(const Film& film) const {
-        const std::vector<float>& truth = reference_->image.color.data;
-        std::vector<float> deviations(truth.size());
-        for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-            const Rgb mean = pixel_mean(film.pixels[i]);
-            for (std::size_t channel = 0; channel < 3; ++channel) {
-                deviations[3 * i + channel] = static_cast<float>(mean[channel] - truth[3 * i + channel]);
-            }
-        }
-        return deviations;
-    }
-
-    const ConvergeOptions& options_;
-    const Scene& scene_;
-    const std::vector<Method>& methods_;
-    ConvergeState state_;
-    StepLine line_;
-    std::vector<std::unique_ptr<MethodRunner>> runners_;
-    std::vector<std::uint32_t> limits_;  // samples a pixel, of each method
-    std::vector<std::map<std::uint32_t, DeviationSums>> sums_;
-    std::optional<Reference> reference_;
-    nlohmann::ordered_json json_;
-};
+    return subject;
+}
 
 int run_converge(ConvergeOptions options) {
+    options.program = program_version();
     if (options.arguments.size.empty() && !reference_is_file(options)) {
         options.arguments.size = default_converge_size;
     }
@@ -246,27 +74,29 @@ int run_converge(ConvergeOptions options) {
     const Stopwatch loading;
     const Scene scene = prepare_scene(options.arguments);
     const double load_seconds = loading.seconds();
-    const std::vector<Method> methods = plan_methods(options);
-    claim_folder(options, plan_to_json(options, methods));
+    const ConvergeSubject subject = plan_subject(options, scene);
+    ConvergeState state(options.folder);
+    if (!state.load_seconds()) {
+        state.set_load_seconds(load_seconds);
+    }
     bool whole = false;
-    std::optional<Summary> summary;
     nlohmann::ordered_json json;
     {
-        Converge converge(options, scene, methods);
-        if (converge.state().latest("scene").is_null()) {
-            converge.state().append(nlohmann::ordered_json{{"kind", "scene"}, {"load_seconds", load_seconds}});
-        }
+        StepLine line(converge_steps(options, subject.methods.size()));
+        const StepHook begin = [&](const std::string& step) { line.begin(step); };
+        ConvergeMeasurement measurement(options, subject, state, begin);
         {
             InterruptGuard interrupt;
-            whole = converge.measure(interrupt.requested());
+            whole = measurement.run(interrupt.requested());
         }
-        summary = converge.report();
-        json = converge.json();
-        if (summary && !options.json) {
-            print_summary(options, *summary, converge.reference());
+        if (const std::optional<ConvergeSummary> summary = measurement.summary()) {
+            json = write_report(options, subject.methods, *summary, *measurement.reference(), state);
+            if (!options.json) {
+                print_summary(options, *summary, *measurement.reference());
+            }
         }
     }
-    if (summary && options.json) {
+    if (!json.is_null() && options.json) {
         json["interrupted"] = !whole;
         print_json(json);
     }

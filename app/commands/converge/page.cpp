@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "commands/converge/plan.h"
 #include "image/atomic_file.h"
+#include "measure/converge/method.h"
 #include "page_texts.h"
 
 namespace diptych::app {

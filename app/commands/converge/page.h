@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "commands/converge/state.h"
+#include "measure/converge/state.h"
 
 namespace diptych::app {
 

@@ -1,17 +1,12 @@
 #include "commands/converge/pictures.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "image/figures.h"
 #include "image/image_file.h"
-#include "image/metrics.h"
 #include "image/tonemap_image.h"
-#include "render/metadata.h"
-#include "console/report.h"
 
 namespace diptych::app {
 
@@ -63,49 +58,7 @@ double exposure_of(const Image& reference) {
 
 }  // namespace
 
-bool make_picture(MethodRunner& runner, double seconds, const Reference& reference, ConvergeState& state,
-                  const std::atomic<bool>& cancel) {
-    const Method& method = runner.method();
-    const std::string stem = file_stem(method.name);
-    const std::string path = state.path("pictures/" + stem + ".exr");
-    const nlohmann::ordered_json known = state.latest("picture", method.name);
-    if (!known.is_null() && known.value("wanted_seconds", 0.0) == seconds && std::filesystem::exists(path)) {
-        return true;
-    }
-    const ErrorRow* last = nullptr;
-    for (const ErrorRow& row : state.rows()) {
-        last = row.method == method.name ? &row : last;
-    }
-    const double sample_seconds = last->device_seconds / last->spp;
-    const auto spp =
-        static_cast<std::uint32_t>(std::clamp(std::round(seconds / std::max(sample_seconds, 1e-12)), 1.0, 1e9));
-    std::filesystem::create_directories(state.path("pictures"));
-    return runner.run(method.picture_seed, {spp}, cancel,
-                      [&](std::uint32_t, const Film& film, double device_seconds, double) {
-                          LayeredImage image = develop(film);
-                          const Difference difference = compare_images(image, reference.image);
-                          RenderRequest request = method.request;
-                          request.output = stem + ".exr";
-                          request.settings.sample_count = spp;
-                          request.settings.seed = method.picture_seed;
-                          RenderOutcome outcome;
-                          outcome.program = program_version();
-                          outcome.device = runner.device();
-                          outcome.spp = spp;
-                          outcome.seconds = device_seconds;
-                          image.metadata = render_metadata(request, outcome);
-                          write_exr(path, image);
-                          state.append(nlohmann::ordered_json{{"kind", "picture"},
-                                                              {"method", method.name},
-                                                              {"wanted_seconds", seconds},
-                                                              {"spp", spp},
-                                                              {"device_seconds", device_seconds},
-                                                              {"relmse", difference.relmse},
-                                                              {"command", repeat_command(request, spp)}});
-                      });
-}
-
-void write_page_pictures(const std::vector<Method>& methods, const Reference& reference, int largest_side,
+void write_page_pictures(const std::vector<Method>& methods, const ReferencePicture& reference, int largest_side,
                          const ConvergeState& state) {
     std::filesystem::create_directories(state.path("pictures"));
     const Image& truth = reference.image.color;
@@ -113,7 +66,7 @@ void write_page_pictures(const std::vector<Method>& methods, const Reference& re
     write_png(state.path("pictures/reference.png"), shown(truth, exposure, largest_side));
     for (const Method& method : methods) {
         const std::string stem = state.path("pictures/" + file_stem(method.name));
-        if (!state.latest("picture", method.name).is_null() && std::filesystem::exists(stem + ".exr")) {
+        if (state.picture(method.name) && std::filesystem::exists(stem + ".exr")) {
             const Image color = read_image(stem + ".exr").color;
             write_png(stem + ".png", shown(color, exposure, largest_side));
             write_png(stem + "-error.png", error_map(color, truth, largest_side));

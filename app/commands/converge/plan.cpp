@@ -243,11 +243,4 @@ void claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& 
     }
 }
 
-std::string file_stem(const std::string& method) {
-    std::string stem = method;
-    std::replace(stem.begin(), stem.end(), ':', '-');
-    std::replace(stem.begin(), stem.end(), '/', '-');
-    return stem;
-}
-
 }  // namespace diptych::app

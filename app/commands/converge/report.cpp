@@ -1,10 +1,10 @@
-// The summary of `converge` as JSON, as CSV and as text.
+#include "commands/converge/report.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "build_info.h"
-#include "commands/converge/summary.h"
 #include "render/metadata.h"
 #include "settings/names.h"
 #include "console/report.h"
@@ -61,6 +61,12 @@ const char* name_of(TargetTime::Kind kind) {
     }
 }
 
+/// As results.jsonl has it; null where there is none.
+template <class Event>
+Json event_to_json(const Method& method, const std::optional<Event>& event) {
+    return event ? diptych::to_json(method.name, *event) : Json();
+}
+
 Json to_json(const MethodSummary& summary) {
     const RenderRequest& request = summary.method->request;
     const bool oracle = request.backend == "oracle";
@@ -71,7 +77,7 @@ Json to_json(const MethodSummary& summary) {
     json["sampler"] = oracle ? "independent" : diptych::name_of(request.settings.sampler);
     json["runs"] = summary.runs;
     json["first_seed"] = request.settings.seed;
-    json["setup"] = summary.setup;
+    json["setup"] = event_to_json(*summary.method, summary.setup);
     json["slope_mse"] = to_json(summary.slope_mse);
     json["slope_relmse"] = to_json(summary.slope_relmse);
     json["fit"] = to_json(summary.fit);
@@ -80,7 +86,7 @@ Json to_json(const MethodSummary& summary) {
     json["bias"] = {
         {"adjusted_p", summary.bias_p}, {"significant", summary.bias_p < bias_alpha}, {"text", summary.bias_text}};
     json["time_to_target"] = {{"kind", name_of(summary.to_target.kind)}, {"device_seconds", summary.to_target.seconds}};
-    json["picture"] = summary.picture;
+    json["picture"] = event_to_json(*summary.method, summary.picture);
     json["command"] = repeat_command(request, summary.checkpoints.back().spp);
     json["checkpoints"] = Json::array();
     for (const CheckpointSummary& point : summary.checkpoints) {
@@ -95,8 +101,8 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Summary& summary,
-                                       const Reference& reference, const ConvergeState& state) {
+nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const ConvergeSummary& summary,
+                                       const ReferencePicture& reference, const ConvergeState& state) {
     const RenderRequest& request = options.arguments.request;
     Json json;
     json["scene"] = request.scene;
@@ -107,7 +113,7 @@ nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Sum
     json["program"] = program_version();
     json["commit"] = build_info::commit;
     json["command"] = options.command;
-    json["load_seconds"] = state.latest("scene").value("load_seconds", 0.0);
+    json["load_seconds"] = state.load_seconds().value_or(0);
     json["reference"] = {{"method", reference.method},
                          {"spp", reference.spp},
                          {"variance_known", reference.variance_known},
@@ -126,7 +132,7 @@ nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Sum
     return json;
 }
 
-std::string summary_to_csv(const Summary& summary) {
+std::string summary_to_csv(const ConvergeSummary& summary) {
     std::string text =
         "method,runs,spp,device_seconds,wall_seconds,mse,mse_low,mse_high,relmse,relmse_low,relmse_high,relmse_trimmed,"
         "trimmed_energy,mse_net,relmse_net,efficiency,bias_squared,bias_squared_error,relative_bias_squared,relative_"
@@ -147,7 +153,7 @@ std::string summary_to_csv(const Summary& summary) {
     return text;
 }
 
-void print_summary(const ConvergeOptions& options, const Summary& summary, const Reference& reference) {
+void print_summary(const ConvergeOptions& options, const ConvergeSummary& summary, const ReferencePicture& reference) {
     const RenderSettings& settings = options.arguments.request.settings;
     fmt::print("{} at {}x{}, {} runs a method; reference: {}{}\n", options.arguments.request.scene, settings.width,
                settings.height, options.runs, reference.method,

@@ -1,4 +1,4 @@
-#include "commands/converge/summary.h"
+#include "measure/converge/summary.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "settings/names.h"
 #include "stats/multiple_testing.h"
 
-namespace diptych::app {
+namespace diptych {
 
 namespace {
 
@@ -80,13 +80,13 @@ void fit(MethodSummary& method, const std::vector<std::vector<const ErrorRow*>>&
     method.fit_relmse = fit_bias(samples, relmse, noise.relmse_error);
 }
 
-MethodSummary summarize_method(const Method& method, const Reference& reference, const ReferenceNoise& noise,
+MethodSummary summarize_method(const Method& method, const ReferencePicture& reference, const ReferenceNoise& noise,
                                const ConvergeState& state) {
     MethodSummary summary;
     summary.method = &method;
     summary.runs = state.runs(method.name);
-    summary.setup = state.latest("setup", method.name);
-    summary.picture = state.latest("picture", method.name);
+    summary.setup = state.setup(method.name);
+    summary.picture = state.picture(method.name);
     std::map<std::uint32_t, std::vector<const ErrorRow*>> counts;
     for (const ErrorRow& row : state.rows()) {
         if (row.method == method.name) {
@@ -129,7 +129,7 @@ bool biased_by_choice(const Method& method) {
             settings.resampling.visibility == ResamplingVisibility::biased_final);
 }
 
-std::string bias_text(const MethodSummary& summary, const Reference& reference) {
+std::string bias_text(const MethodSummary& summary, const ReferencePicture& reference) {
     const BiasSquared& bias = summary.checkpoints.back().relative_bias;
     if (std::isnan(summary.bias_p)) {
         return "not tested: too few runs or pixels";
@@ -156,9 +156,9 @@ std::string bias_text(const MethodSummary& summary, const Reference& reference) 
 
 }  // namespace
 
-Summary summarize_results(const ConvergeOptions& options, const std::vector<Method>& methods,
-                          const Reference& reference, const ConvergeState& state) {
-    Summary summary;
+ConvergeSummary summarize_results(const ConvergeSettings& settings, const std::vector<Method>& methods,
+                                  const ReferencePicture& reference, const ConvergeState& state) {
+    ConvergeSummary summary;
     summary.noise = noise_of(reference);
     std::vector<double> fit_p, bias_p, last_errors, last_times;
     for (const Method& method : methods) {
@@ -174,10 +174,10 @@ Summary summarize_results(const ConvergeOptions& options, const std::vector<Meth
     }
     fit_p = holm_of_known(fit_p);
     bias_p = holm_of_known(bias_p);
-    summary.target_relmse = options.target_relmse > 0 ? options.target_relmse : median(last_errors);
+    summary.target_relmse = settings.target_relmse > 0 ? settings.target_relmse : median(last_errors);
     if (!last_times.empty()) {
-        summary.equal_seconds = options.picture_seconds > 0 ? options.picture_seconds
-                                                            : *std::min_element(last_times.begin(), last_times.end());
+        summary.equal_seconds = settings.picture_seconds > 0 ? settings.picture_seconds
+                                                             : *std::min_element(last_times.begin(), last_times.end());
     }
     for (std::size_t i = 0; i < summary.methods.size(); ++i) {
         MethodSummary& method = summary.methods[i];
@@ -194,4 +194,4 @@ Summary summarize_results(const ConvergeOptions& options, const std::vector<Meth
     return summary;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych

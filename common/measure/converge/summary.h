@@ -1,16 +1,15 @@
-// From the rows of `converge` to what they say: bands, slopes, bias, times.
+// From the errors of all runs to what they say: bands, slopes, bias, times.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "commands/converge/plan.h"
-#include "commands/converge/reference.h"
-#include "commands/converge/state.h"
+#include "measure/converge/method.h"
+#include "measure/converge/state.h"
 #include "stats/convergence.h"
 
-namespace diptych::app {
+namespace diptych {
 
 /// A method after so many samples, over its runs.
 struct CheckpointSummary {
@@ -41,11 +40,11 @@ struct MethodSummary {
     double bias_p = 0;      // p of the last checkpoint's relative bias², likewise
     std::string bias_text;  // what to make of it
     TargetTime to_target;
-    nlohmann::ordered_json setup;  // the state's events
-    nlohmann::ordered_json picture;
+    std::optional<MethodSetup> setup;
+    std::optional<MethodPicture> picture;
 };
 
-struct Summary {
+struct ConvergeSummary {
     std::vector<MethodSummary> methods;  // those with at least one run
     ReferenceNoise noise;
     double target_relmse = 0;
@@ -55,16 +54,8 @@ struct Summary {
 /// A bias is called significant below this, over all methods together.
 inline constexpr double bias_alpha = 0.01;
 
-Summary summarize_results(const ConvergeOptions& options, const std::vector<Method>& methods,
-                          const Reference& reference, const ConvergeState& state);
+/// The methods must live as long.
+ConvergeSummary summarize_results(const ConvergeSettings& settings, const std::vector<Method>& methods,
+                                  const ReferencePicture& reference, const ConvergeState& state);
 
-/// Everything, as docs/converge.md describes it.
-nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Summary& summary,
-                                       const Reference& reference, const ConvergeState& state);
-
-/// A line for each method and sample count.
-std::string summary_to_csv(const Summary& summary);
-
-void print_summary(const ConvergeOptions& options, const Summary& summary, const Reference& reference);
-
-}  // namespace diptych::app
+}  // namespace diptych

@@ -1,20 +1,15 @@
 // The picture that errors are measured against, and how well it is known itself.
 #pragma once
 
-#include <atomic>
-#include <functional>
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "commands/converge/plan.h"
-#include "commands/converge/state.h"
 #include "image/layered_image.h"
-#include "scene/scene.h"
 
-namespace diptych::app {
+namespace diptych {
 
-struct Reference {
+struct ReferencePicture {
     LayeredImage image;           // with standard errors, where they are known
     std::vector<float> variance;  // of every value: standard error squared; zeros where unknown
     std::vector<float> weights;   // 1 / (r² + 1e-2)
@@ -34,15 +29,10 @@ struct ReferenceNoise {
     double relmse_error = 0;
     double mean = 0;  // of the reference itself, over pixels and channels
 };
-ReferenceNoise noise_of(const Reference& reference);
+ReferenceNoise noise_of(const ReferencePicture& reference);
 
-/// A file of the given size with three channels; its layer of standard errors is its variance. Throws Error.
-Reference load_reference(const std::string& path, int width, int height);
+/// Of a picture with three channels, all finite; its layer of standard errors is its variance, and its metadata say how
+/// it was made. `method`: a file, or what rendered it.
+ReferencePicture reference_of(LayeredImage image, std::string method);
 
-/// Renders what is missing of it, `spp` samples a block, and leaves reference.exr in the folder; a finished one is read
-/// back. Nothing where `cancel` came in between: the blocks so far are kept. Throws Error.
-std::optional<Reference> make_reference(const Scene& scene, const Method& method, std::uint32_t spp,
-                                        ConvergeState& state, const std::atomic<bool>& cancel,
-                                        const std::function<void(std::uint32_t)>& begin_block);
-
-}  // namespace diptych::app
+}  // namespace diptych

@@ -1,4 +1,4 @@
-#include "commands/converge/reference.h"
+#include "measure/converge/reference_blocks.h"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "commands/converge/runner.h"
 #include "error.h"
 #include "image/atomic_file.h"
 #include "image/image_file.h"
 #include "render/film_statistics.h"
 #include "render/metadata.h"
-#include "console/report.h"
 
-namespace diptych::app {
+namespace diptych {
 
 namespace {
 
@@ -82,80 +80,19 @@ LayeredImage picture_of(const Blocks& blocks, int width, int height) {
     return image;
 }
 
-Reference reference_of(LayeredImage image, std::string method) {
-    Reference reference;
-    reference.method = std::move(method);
-    reference.variance.assign(image.color.data.size(), 0);
-    reference.variance_known = image.standard_error.has_value();
-    for (std::size_t i = 0; reference.variance_known && i < reference.variance.size(); ++i) {
-        const float error = image.standard_error->data[i];
-        reference.variance[i] = std::isfinite(error) ? error * error : 0;
-    }
-    for (const float value : image.color.data) {
-        reference.weights.push_back(1 / (value * value + 1e-2F));
-    }
-    const auto entry = [&](const char* name) {
-        const auto found = image.metadata.find(name);
-        return found == image.metadata.end() ? std::string() : found->second;
-    };
-    reference.command = entry("command");
-    reference.spp = static_cast<std::uint32_t>(std::strtoul(entry("spp").c_str(), nullptr, 10));
-    reference.image = std::move(image);
-    return reference;
-}
-
 }  // namespace
 
-ReferenceNoise noise_of(const Reference& reference) {
-    ReferenceNoise noise;
-    const std::vector<float>& color = reference.image.color.data;
-    const double values = static_cast<double>(color.size()), pixels = values / 3;
-    for (std::size_t i = 0; i < color.size(); i += 3) {
-        double pixel = 0, relative = 0;
-        for (std::size_t channel = i; channel < i + 3; ++channel) {
-            pixel += reference.variance[channel] / 3.0;
-            relative += reference.variance[channel] * reference.weights[channel] / 3.0;
-            noise.mean += color[channel] / values;
-        }
-        noise.mse += pixel / pixels;
-        noise.relmse += relative / pixels;
-        noise.mse_error += 2 * pixel * pixel;
-        noise.relmse_error += 2 * relative * relative;
-    }
-    noise.mse_error = std::sqrt(noise.mse_error) / pixels;
-    noise.relmse_error = std::sqrt(noise.relmse_error) / pixels;
-    return noise;
-}
-
-Reference load_reference(const std::string& path, int width, int height) {
-    LayeredImage image = read_image(path);
-    if (image.color.width != width || image.color.height != height) {
-        throw Error(fmt::format("--reference {}: has {}x{} pixels, and {}x{} are rendered; give --size", path,
-                                image.color.width, image.color.height, width, height));
-    }
-    if (image.data != image.display) {
-        throw Error(fmt::format("--reference {}: a crop: it has data for {}x{} of its {}x{} pixels", path,
-                                image.data.width, image.data.height, width, height));
-    }
-    for (const float value : image.color.data) {
-        if (!std::isfinite(value)) {
-            throw Error(fmt::format("--reference {}: holds values that are not finite", path));
-        }
-    }
-    return reference_of(std::move(image), path);
-}
-
-std::optional<Reference> make_reference(const Scene& scene, const Method& method, std::uint32_t spp,
-                                        ConvergeState& state, const std::atomic<bool>& cancel,
-                                        const std::function<void(std::uint32_t)>& begin_block) {
+std::optional<ReferencePicture> render_reference(MethodRunner& runner, std::uint32_t spp, const std::string& program,
+                                                 ConvergeState& state, const std::atomic<bool>& cancel,
+                                                 const std::function<void(std::uint32_t)>& begin_block) {
+    const Method& method = runner.method();
     const RenderSettings& settings = method.request.settings;
     const std::string path = state.path("reference.exr"), partial = state.path("reference.blocks");
-    if (!state.latest("reference").is_null() && fs::exists(path)) {
+    if (state.reference() && fs::exists(path)) {
         return reference_of(read_image(path), method.name);
     }
     Blocks blocks =
         load(partial, 3 * static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
-    MethodRunner runner(scene, method);
     double seconds = 0;
     while (blocks.count < reference_blocks) {
         begin_block(blocks.count);
@@ -173,7 +110,7 @@ std::optional<Reference> make_reference(const Scene& scene, const Method& method
     RenderRequest request = method.request;
     request.output = "reference.exr";
     RenderOutcome outcome;
-    outcome.program = program_version();
+    outcome.program = program;
     outcome.device = runner.device();
     outcome.spp = spp * reference_blocks;
     outcome.seconds = seconds;
@@ -182,14 +119,9 @@ std::optional<Reference> make_reference(const Scene& scene, const Method& method
     // Each block has its own seed, so no single render has these bits: this one has their expectation and, about, their
     // noise.
     write_exr(path, image);
-    state.append(nlohmann::ordered_json{{"kind", "reference"},
-                                        {"method", method.name},
-                                        {"device", runner.device()},
-                                        {"spp", outcome.spp},
-                                        {"blocks", reference_blocks},
-                                        {"device_seconds", seconds}});
+    state.set_reference({method.name, runner.device(), outcome.spp, reference_blocks, seconds});
     fs::remove(partial);
     return reference_of(std::move(image), method.name);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych

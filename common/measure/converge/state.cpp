@@ -1,4 +1,4 @@
-#include "commands/converge/state.h"
+#include "measure/converge/state.h"
 
 #include <fmt/format.h>
 
@@ -8,14 +8,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "commands/converge/plan.h"
 #include "error.h"
 #include "image/atomic_file.h"
+#include "measure/converge/method.h"
 
-namespace diptych::app {
+namespace diptych {
 
 namespace {
 
@@ -24,49 +24,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t sums_magic = 0x31535444;  // "DTS1"
 
-Json run_to_json(const std::vector<ErrorRow>& run) {
-    const ErrorRow& first = run.front();
-    Json json = {{"kind", "run"},
-                 {"method", first.method},
-                 {"run", first.run},
-                 {"seed", first.seed},
-                 {"checkpoints", Json::array()}};
-    for (const ErrorRow& row : run) {
-        json["checkpoints"].push_back({{"spp", row.spp},
-                                       {"device_seconds", row.device_seconds},
-                                       {"wall_seconds", row.wall_seconds},
-                                       {"mse", row.mse},
-                                       {"relmse", row.relmse},
-                                       {"relmse_trimmed", row.relmse_trimmed},
-                                       {"trimmed_energy", row.trimmed_energy},
-                                       {"nonfinite", row.nonfinite},
-                                       {"rays", row.rays}});
-    }
-    return json;
-}
-
-double number(const Json& json, const char* key) {
-    const Json& value = json.at(key);
-    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
-
-void add_run(std::vector<ErrorRow>& rows, const Json& run) {
-    for (const Json& json : run.at("checkpoints")) {
-        ErrorRow row;
-        row.method = run.at("method");
-        row.run = run.at("run");
-        row.seed = run.at("seed");
-        row.spp = json.at("spp");
-        row.device_seconds = number(json, "device_seconds");
-        row.wall_seconds = number(json, "wall_seconds");
-        row.mse = number(json, "mse");
-        row.relmse = number(json, "relmse");
-        row.relmse_trimmed = number(json, "relmse_trimmed");
-        row.trimmed_energy = number(json, "trimmed_energy");
-        row.nonfinite = json.at("nonfinite");
-        row.rays = json.at("rays");
-        rows.push_back(row);
-    }
+template <class T>
+std::optional<T> found_in(const std::map<std::string, T>& all, const std::string& method) {
+    const auto found = all.find(method);
+    return found == all.end() ? std::nullopt : std::optional(found->second);
 }
 
 template <class T>
@@ -106,10 +67,20 @@ ConvergeState::ConvergeState(const std::string& folder) : folder_(folder) {
         if (event.is_discarded()) {
             throw Error(fmt::format("{}: has a line that is not JSON; give another -o", name));
         }
-        if (event.value("kind", "") == "run") {
-            add_run(rows_, event);
-        } else {
-            events_.push_back(event);
+        const std::string kind = event.value("kind", ""), method = event.value("method", "");
+        if (kind == "scene") {
+            load_seconds_ = event.at("load_seconds");
+        } else if (kind == "limit") {
+            limits_[method] = event.at("spp_max");
+        } else if (kind == "setup") {
+            setups_[method] = setup_of(event);
+        } else if (kind == "reference") {
+            reference_ = rendered_reference_of(event);
+        } else if (kind == "run") {
+            const std::vector<ErrorRow> run = run_of(event);
+            rows_.insert(rows_.end(), run.begin(), run.end());
+        } else if (kind == "picture") {
+            pictures_[method] = picture_of(event);
         }
     }
     if (at < text.size()) {
@@ -125,23 +96,44 @@ std::string ConvergeState::sums_path(const std::string& method) const {
     return path(file_stem(method) + ".sums");
 }
 
-void ConvergeState::append_text(const std::string& lines) const {
+void ConvergeState::append_line(const std::string& text) const {
+    const std::string line = text + "\n";
     const std::string name = path("results.jsonl");
     std::FILE* file = std::fopen(name.c_str(), "ab");
-    const bool written = file != nullptr && std::fwrite(lines.data(), 1, lines.size(), file) == lines.size();
+    const bool written = file != nullptr && std::fwrite(line.data(), 1, line.size(), file) == line.size();
     const bool closed = file != nullptr && std::fclose(file) == 0;
     if (!written || !closed) {
         throw Error(fmt::format("{}: cannot write: {}", name, std::strerror(errno)));
     }
 }
 
-void ConvergeState::append(const Json& event) {
-    append_text(event.dump() + "\n");
-    events_.push_back(event);
+void ConvergeState::set_load_seconds(double seconds) {
+    append_line(Json{{"kind", "scene"}, {"load_seconds", seconds}}.dump());
+    load_seconds_ = seconds;
+}
+
+void ConvergeState::set_limit(const std::string& method, std::uint32_t spp) {
+    append_line(Json{{"kind", "limit"}, {"method", method}, {"spp_max", spp}}.dump());
+    limits_[method] = spp;
+}
+
+void ConvergeState::set_setup(const std::string& method, const MethodSetup& setup) {
+    append_line(to_json(method, setup).dump());
+    setups_[method] = setup;
+}
+
+void ConvergeState::set_reference(const RenderedReference& reference) {
+    append_line(to_json(reference).dump());
+    reference_ = reference;
+}
+
+void ConvergeState::set_picture(const std::string& method, const MethodPicture& picture) {
+    append_line(to_json(method, picture).dump());
+    pictures_[method] = picture;
 }
 
 void ConvergeState::append(const std::vector<ErrorRow>& run) {
-    append_text(run_to_json(run).dump() + "\n");
+    append_line(to_json(run).dump());
     rows_.insert(rows_.end(), run.begin(), run.end());
     write_csv();
 }
@@ -154,11 +146,16 @@ std::uint32_t ConvergeState::runs(const std::string& method) const {
     return runs;
 }
 
-Json ConvergeState::latest(const std::string& kind, const std::string& method) const {
-    const auto found = std::find_if(events_.rbegin(), events_.rend(), [&](const Json& event) {
-        return event.value("kind", "") == kind && (method.empty() || event.value("method", "") == method);
-    });
-    return found == events_.rend() ? Json() : *found;
+std::optional<std::uint32_t> ConvergeState::limit(const std::string& method) const {
+    return found_in(limits_, method);
+}
+
+std::optional<MethodSetup> ConvergeState::setup(const std::string& method) const {
+    return found_in(setups_, method);
+}
+
+std::optional<MethodPicture> ConvergeState::picture(const std::string& method) const {
+    return found_in(pictures_, method);
 }
 
 void ConvergeState::write_csv() const {
@@ -210,4 +207,4 @@ void ConvergeState::save_sums(const std::string& method, const std::map<std::uin
     write_file_atomically(sums_path(method), bytes);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych

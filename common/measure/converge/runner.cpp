@@ -1,11 +1,10 @@
-#include "commands/converge/runner.h"
+#include "measure/converge/runner.h"
 
 #include <algorithm>
 
 #include "clock.h"
-#include "session/open_session.h"
 
-namespace diptych::app {
+namespace diptych {
 
 namespace {
 
@@ -19,7 +18,7 @@ MethodRunner::Entry& MethodRunner::entry(std::uint32_t sample_count) {
     if (!entry.session) {
         RenderRequest request = method_.request;
         request.settings.sample_count = std::max(sample_count, 1U);
-        entry.session.emplace(open_session(scene_, request));
+        entry.session.emplace(open_(scene_, request, false));
     }
     return entry;
 }
@@ -28,10 +27,11 @@ std::string MethodRunner::device() {
     return entry(1).session->renderer().device();
 }
 
-SetupCosts MethodRunner::costs() {
-    const Entry& first = entry(1);
-    const RendererCosts costs = first.session->renderer().costs();
-    return {first.session->pack_seconds(), costs.build_seconds, costs.compile_seconds, costs.bytes};
+MethodSetup MethodRunner::setup() {
+    const Session& session = *entry(1).session;
+    const RendererCosts costs = session.renderer().costs();
+    return {session.renderer().device(), session.pack_seconds(), costs.build_seconds, costs.compile_seconds,
+            costs.bytes};
 }
 
 void MethodRunner::warm_up(Entry& entry, const std::atomic<bool>& cancel) {
@@ -43,10 +43,6 @@ void MethodRunner::warm_up(Entry& entry, const std::atomic<bool>& cancel) {
         entry.session->render(i, 1, cancel);
     }
     entry.warm = true;
-}
-
-void MethodRunner::warm_up(const std::atomic<bool>& cancel) {
-    warm_up(entry(1), cancel);
 }
 
 bool MethodRunner::run(std::uint32_t seed, const std::vector<std::uint32_t>& counts, const std::atomic<bool>& cancel,
@@ -104,4 +100,4 @@ std::uint32_t MethodRunner::samples_within(double seconds, const std::atomic<boo
     return fits;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych

@@ -6,19 +6,11 @@
 #include <map>
 #include <optional>
 
-#include "commands/converge/plan.h"
-#include "render/session.h"
-#include "scene/scene.h"
+#include "measure/converge/method.h"
+#include "measure/converge/state.h"
+#include "measure/open_session.h"
 
-namespace diptych::app {
-
-/// What it took before the first sample.
-struct SetupCosts {
-    double pack_seconds = 0;
-    double build_seconds = 0;
-    double compile_seconds = 0;
-    std::uint64_t bytes = 0;
-};
+namespace diptych {
 
 /// A run's film after `spp` samples a pixel, and the seconds until then, of rendering alone.
 using Checkpoint = std::function<void(std::uint32_t spp, const Film& film, double device_seconds, double wall_seconds)>;
@@ -27,16 +19,14 @@ using Checkpoint = std::function<void(std::uint32_t spp, const Film& film, doubl
 /// count has a renderer and a render of its own; otherwise a run is one render that grows.
 class MethodRunner {
 public:
-    MethodRunner(const Scene& scene, Method method) : scene_(scene), method_(std::move(method)) {}
+    /// `scene` must live as long.
+    MethodRunner(const Scene& scene, Method method, OpenSession open)
+        : scene_(scene), method_(std::move(method)), open_(std::move(open)) {}
 
     const Method& method() const { return method_; }
-    bool made() const { return !entries_.empty(); }
-    bool noted = false;  // its costs have been written down
+    /// These build it where it is not.
     std::string device();
-    SetupCosts costs();
-
-    /// Renders a few samples that count for nothing, once: devices clock up, dispatches find their size.
-    void warm_up(const std::atomic<bool>& cancel);
+    MethodSetup setup();
 
     /// Calls back at each of the counts, which ascend; false where `cancel` came in between.
     bool run(std::uint32_t seed, const std::vector<std::uint32_t>& counts, const std::atomic<bool>& cancel,
@@ -53,11 +43,13 @@ private:
     };
 
     Entry& entry(std::uint32_t sample_count);
+    /// Renders a few samples that count for nothing, once: devices clock up, dispatches find their size.
     static void warm_up(Entry& entry, const std::atomic<bool>& cancel);
 
     const Scene& scene_;
     Method method_;
+    OpenSession open_;
     std::map<std::uint32_t, Entry> entries_;  // by the count that it is laid out for; 0 where that does not matter
 };
 
-}  // namespace diptych::app
+}  // namespace diptych
