@@ -92,11 +92,11 @@ std::uint64_t fresh_seed() {
 }  // namespace
 
 TEST_CASE("Random scenes have the oracle's means (first half)") {
-    check_scenes(make_random_scene, 1, 20, cpu_and_oracle(), quick());
+    check_scenes(make_random_scene, 1, 14, cpu_and_oracle(), quick());
 }
 
 TEST_CASE("Random scenes have the oracle's means (second half)") {
-    check_scenes(make_random_scene, 101, 20, cpu_and_oracle(), quick());
+    check_scenes(make_random_scene, 101, 14, cpu_and_oracle(), quick());
 }
 
 TEST_CASE("Thousands of fresh random scenes have the oracle's means", "[nightly]") {
