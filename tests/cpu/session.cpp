@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "generate/generate.h"
+#include "pose/pose.h"
 #include "render/frames.h"
 #include "render/progressive.h"
 #include "render_fixture.h"
@@ -133,6 +134,37 @@ TEST_CASE("A chain has the same bits whether its frames' samples are taken toget
         CHECK(render_progressively(together, target, never).spp == 3);
     }
     CHECK(same_film(together.film(), last));
+}
+
+TEST_CASE("A chain's samples but a frame's first look back to that frame's own moment") {
+    const Scene scene = generate_scene("moving-light").scene;
+    RenderSettings settings = small_settings(Integrator::restir);
+    settings.moves = true;
+    Session session(scene, settings, on_cpu, Moment());
+    Scene posed = scene;
+    PackedScene packed = pack_scene(posed, settings);
+    const auto renderer = make_cpu_renderer(packed, 2);
+    const auto go_to = [&](double seconds) {
+        pose_scene(posed, seconds);
+        pack_moment(posed, settings, packed);
+        renderer->move_to(packed);
+    };
+    for (std::uint32_t frame = 0; frame < 4; ++frame) {
+        INFO(frame);
+        const double seconds = 0.8 + 0.1 * frame;  // the lamp switches on at 1 s
+        session.show(at(seconds), frame == 0 ? std::optional(9U) : std::nullopt);
+        session.render(0, 3, never);
+        go_to(seconds);
+        if (frame == 0) {
+            renderer->restart(9);
+        } else {
+            renderer->clear_film();
+        }
+        renderer->render(3 * frame, 1, never);
+        go_to(seconds);  // the moment before is this one now
+        renderer->render(3 * frame + 1, 2, never);
+        CHECK(same_film(session.film(), renderer->film()));
+    }
 }
 
 TEST_CASE("Frames of a request are its moments, and an orbit starts from where the scene has the camera") {
