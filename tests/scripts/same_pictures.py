@@ -84,7 +84,7 @@ def jobs(program):
 
 def pictures(program):
     with concurrent.futures.ThreadPoolExecutor() as pool:
-        names = {f"{scene.stem} {backend} {setting}": pool.submit(picture, program, scene, backend, setting)
+        names = {f"{scene.relative_to(ROOT)} {backend} {setting}": pool.submit(picture, program, scene, backend, setting)
                  for scene, backend, setting in jobs(program)}
         return {name: result.result() for name, result in names.items()}
 
