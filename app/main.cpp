@@ -1,5 +1,5 @@
 #include "commands/program.h"
 
 int main(int argc, char** argv) {
-    return diptych::app::run_program(argc, argv);
+    return diptych::core::app::run_program(argc, argv);
 }

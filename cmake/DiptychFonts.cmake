@@ -1,6 +1,6 @@
 # diptych_fonts(NAME)
 # The faces of Roboto that the interface is set in, embedded, each under its file name:
-#   #include "fonts.h"; std::string_view diptych::font_data(std::string_view name)
+#   #include "fonts.h"; std::string_view diptych::core::font_data(std::string_view name)
 function(diptych_fonts name)
   set(files "")
   foreach(face Regular Medium)

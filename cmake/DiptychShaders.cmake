@@ -1,6 +1,6 @@
 # diptych_shaders(NAME FUNCTION function HEADER header FOLDER folder)
 # A static library that holds the folder's shaders as SPIR-V, each under its file name:
-#   #include "HEADER"; std::span<const uint32_t> diptych::FUNCTION(std::string_view name)
+#   #include "HEADER"; std::span<const uint32_t> diptych::core::FUNCTION(std::string_view name)
 # Shaders are compiled anew when a file they include changes, and are validated before they are embedded.
 function(diptych_shaders name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "FUNCTION;HEADER;FOLDER" "")

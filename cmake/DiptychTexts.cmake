@@ -1,6 +1,6 @@
 # diptych_texts(NAME FUNCTION function HEADER header FILES file...)
 # A static library that holds text files, each under its file name:
-#   #include "HEADER"; std::string_view diptych::FUNCTION(std::string_view name)
+#   #include "HEADER"; std::string_view diptych::core::FUNCTION(std::string_view name)
 function(diptych_texts name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "FUNCTION;HEADER" "FILES")
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${name})

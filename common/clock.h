@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace diptych {
+namespace diptych::core {
 
 /// Seconds since a start that is the same for the whole process.
 inline double now_seconds() {
@@ -19,4 +19,4 @@ private:
     double start_ = now_seconds();
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

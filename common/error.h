@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace diptych {
+namespace diptych::core {
 
 /// Bad usage or bad input. `what()` is one line that names the file, the object in it and the reason.
 class Error : public std::runtime_error {
@@ -24,4 +24,4 @@ public:
     using Error::Error;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <system_error>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -73,4 +73,4 @@ std::string did_you_mean_file(const fs::path& path) {
     return "";
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 
 /// The nearest of the known words by Levenshtein's distance; empty where none is near.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
@@ -16,4 +16,4 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 /// The same for a path that does not exist: the first of its parts that is missing is sought among its neighbours.
 std::string did_you_mean_file(const std::filesystem::path& path);
 
-}  // namespace diptych
+}  // namespace diptych::core

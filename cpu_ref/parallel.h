@@ -17,7 +17,7 @@ inline void __tsan_acquire(void*) {}
 inline void __tsan_release(void*) {}
 #endif
 
-namespace diptych {
+namespace diptych::core {
 
 /// Stands where work is handed to other threads and awaited: all before it comes before every task, and all tasks
 /// before what comes after.
@@ -67,4 +67,4 @@ auto run_in(tbb::task_arena& arena, const Work& work) {
     });
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

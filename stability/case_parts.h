@@ -10,7 +10,7 @@
 
 #include "stability_cases.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 void add_microfacet_cases(std::vector<Case>& cases);
 void add_surface_cases(std::vector<Case>& cases);
@@ -73,4 +73,4 @@ private:
     std::mt19937 engine_;
 };
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -4,7 +4,7 @@
 
 #include "render/film_statistics.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 RenderSettings settings_of(int width, int height, std::uint32_t max_depth) {
     RenderSettings s;
@@ -83,4 +83,4 @@ Measured judge_mean(const Film& film, double truth) {
     return m;
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

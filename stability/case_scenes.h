@@ -5,7 +5,7 @@
 #include "render/film.h"
 #include "generate/shapes.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 /// Plain settings: independent samples, one depth, the path integrator.
 RenderSettings settings_of(int width, int height, std::uint32_t max_depth);
@@ -31,4 +31,4 @@ double worst_of(const Film& film, double truth);  // relative, of any pixel's me
 /// Error, dropped samples and their count of a film of which the mean should be `truth`.
 Measured judge_mean(const Film& film, double truth);
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -1,7 +1,7 @@
 // Films of any shape and any number of samples.
 #include "case_scenes.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 namespace {
 
@@ -64,4 +64,4 @@ void add_film_scene_cases(std::vector<Case>& cases) {
                      measure_width});
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -5,7 +5,7 @@
 #include "case_scenes.h"
 #include "references.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 namespace {
 
@@ -96,4 +96,4 @@ void add_flattened_cases(std::vector<Case>& cases) {
                      [](Backend& b, double distance, Effort e) { return measure_lamp_afar(b, 1, distance, 0, e); }});
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -5,7 +5,7 @@
 #include "case_parts.h"
 #include "references.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 namespace {
 
@@ -204,4 +204,4 @@ void add_geometry_cases(std::vector<Case>& cases) {
          [](Backend& b, double omega, Effort e) { return measure_triangles(b, omega, e, TriangleError::triple); }});
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

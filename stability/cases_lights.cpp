@@ -4,7 +4,7 @@
 #include "case_scenes.h"
 #include "references.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 namespace {
 
@@ -111,4 +111,4 @@ void add_light_scene_cases(std::vector<Case>& cases) {
                      measure_dark_mirrors});
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -4,7 +4,7 @@
 #include "case_parts.h"
 #include "references.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 namespace {
 
@@ -288,4 +288,4 @@ void add_microfacet_cases(std::vector<Case>& cases) {
                      measure_blinn_phong_integral});
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

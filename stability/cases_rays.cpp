@@ -2,7 +2,7 @@
 #include "case_scenes.h"
 #include "references.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 namespace {
 
@@ -337,4 +337,4 @@ void add_ray_cases(std::vector<Case>& cases) {
                      measure_vertex_distance});
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -4,7 +4,7 @@
 #include "case_parts.h"
 #include "pack/alias_table_build.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 namespace {
 
@@ -238,4 +238,4 @@ void add_sum_cases(std::vector<Case>& cases) {
         {"ends of u", "every sampler at both ends", {"alpha", 1e-4, 1, true, 3, 9}, 0, "count", measure_ends});
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -4,7 +4,7 @@
 #include "case_parts.h"
 #include "references.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 namespace {
 
@@ -186,4 +186,4 @@ void add_surface_cases(std::vector<Case>& cases) {
                      [](Backend& b, double tilt, Effort e) { return measure_map_bounds(b, tilt, e, 0.5, 1); }});
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -4,7 +4,7 @@
 #include "parallel.h"
 #include "stability_backend.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::unique_ptr<Backend> make_cpu_backend(int threads) {
     return std::make_unique<CpuBackend>(threads);
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

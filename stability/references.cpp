@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 namespace {
 
@@ -83,4 +83,4 @@ double square_irradiance(double half, double height) {
     return 4 * (x / root) * std::atan(x / root);
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 /// GGX (Walter et al. 2007, eq. 33) and normalised Blinn-Phong (eq. 30, exponent 2/alpha^2 - 2) of a half vector.
 double ggx_distribution(const glm::dvec3& h, double alpha);
@@ -22,4 +22,4 @@ double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 /// Irradiance over L below a square of half side `half` centred at `height` (Lambert's formula).
 double square_irradiance(double half, double height);
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -10,7 +10,7 @@
 #include "pack/packed_scene.h"
 #include "render/renderer.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 using shared::MeasuredInput;
 using shared::MeasuredOutput;
@@ -38,4 +38,4 @@ std::unique_ptr<Backend> make_cpu_backend(int threads);
 /// Throws NoDevice where no device serves, Error where the program was built without Vulkan.
 std::unique_ptr<Backend> make_vulkan_backend(const std::string& device, bool validation);
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

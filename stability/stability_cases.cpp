@@ -5,7 +5,7 @@
 #include "case_parts.h"
 #include "clock.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 const std::vector<Case>& all_cases() {
     static const std::vector<Case> cases = [] {
@@ -56,4 +56,4 @@ CaseResult run_case(const Case& c, Backend& backend, Effort effort) {
     return result;
 }
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

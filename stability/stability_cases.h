@@ -8,7 +8,7 @@
 
 #include "stability_backend.h"
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 /// How many points of a range and samples of a picture: seconds in all, or minutes.
 enum class Effort { quick, full };
@@ -64,4 +64,4 @@ std::vector<double> points_of(const Range& range, Effort effort);
 
 CaseResult run_case(const Case& c, Backend& backend, Effort effort);
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

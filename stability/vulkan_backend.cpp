@@ -8,7 +8,7 @@
 #include "renderer/vulkan_renderer.h"
 #endif
 
-namespace diptych::stability {
+namespace diptych::core::stability {
 
 #if DIPTYCH_VULKAN
 namespace {
@@ -53,4 +53,4 @@ std::unique_ptr<Backend> make_vulkan_backend(const std::string&, bool) {
 }
 #endif
 
-}  // namespace diptych::stability
+}  // namespace diptych::core::stability

@@ -15,17 +15,17 @@ inline auto Contains(const std::string& text) {
 #include <catch2/catch.hpp>
 #endif
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// Prints "SKIPPED: reason". A program of which every test case was skipped ends with code 77, which CTest counts as
 /// skipped (skipping.h).
 void report_skipped(const std::string& reason);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests
 
 /// Leaves the test case, whose needs this machine does not meet. Stands before every assertion: skipped means not run.
 #define SKIP_TEST(reason)                                                                                              \
     do {                                                                                                               \
-        diptych::tests::report_skipped(reason);                                                                        \
+        diptych::core::tests::report_skipped(reason);                                                                  \
         return;                                                                                                        \
     } while (false)

@@ -19,12 +19,12 @@ public:
 
     void testCaseStarting(const Catch::TestCaseInfo& info) override {
         Listener::testCaseStarting(info);
-        diptych::tests::test_run().begin(info.name);
+        diptych::core::tests::test_run().begin(info.name);
     }
 
     void testCaseEnded(const Catch::TestCaseStats& stats) override {
         Listener::testCaseEnded(stats);
-        const std::string fault = diptych::tests::test_run().end(stats.totals.assertions.total());
+        const std::string fault = diptych::core::tests::test_run().end(stats.totals.assertions.total());
         if (!fault.empty()) {
             std::printf("FAILED: %s\n", fault.c_str());
         }
@@ -36,5 +36,5 @@ public:
 CATCH_REGISTER_LISTENER(Watch)
 
 int main(int argc, char** argv) {
-    return diptych::tests::test_run().exit_code(Catch::Session().run(argc, argv));
+    return diptych::core::tests::test_run().exit_code(Catch::Session().run(argc, argv));
 }

@@ -5,7 +5,7 @@
 
 #include "catch.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 constexpr int skipped_exit_code = 77;
@@ -61,4 +61,4 @@ TestRun& test_run() {
     return run;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// Prints "LEFT OUT: what", each once: a part of a test that this machine cannot run, beside parts that ran.
 void report_left_out(const std::string& what);
@@ -32,4 +32,4 @@ private:
 /// This program's.
 TestRun& test_run();
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

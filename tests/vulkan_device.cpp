@@ -6,7 +6,7 @@
 #include "skipping.h"
 #include "device/validation.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 bool has_vulkan() {
     for (const VulkanDeviceInfo& info : list_vulkan_devices()) {
@@ -43,4 +43,4 @@ void check_no_validation_messages() {
     clear_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

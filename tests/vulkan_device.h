@@ -3,7 +3,7 @@
 
 #include "catch.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// Whether a usable Vulkan device exists.
 bool has_vulkan();
@@ -15,12 +15,12 @@ bool has_validation_layer();
 /// Fails on any validation message since the last call. Says LEFT OUT, and asserts nothing, where there is no layer.
 void check_no_validation_messages();
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests
 
 /// Leaves the test case where there is no device.
 #define NEED_VULKAN()                                                                                                  \
     do {                                                                                                               \
-        if (!diptych::tests::has_vulkan()) {                                                                           \
+        if (!diptych::core::tests::has_vulkan()) {                                                                     \
             SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 or later brings one");              \
         }                                                                                                              \
     } while (false)
@@ -29,7 +29,7 @@ void check_no_validation_messages();
 #define NEED_VALIDATION()                                                                                              \
     do {                                                                                                               \
         NEED_VULKAN();                                                                                                 \
-        if (!diptych::tests::has_validation_layer()) {                                                                 \
+        if (!diptych::core::tests::has_validation_layer()) {                                                           \
             SKIP_TEST("the Vulkan validation layer is not installed (package vulkan-validationlayers)");               \
         }                                                                                                              \
     } while (false)

@@ -9,7 +9,7 @@ namespace CLI {
 class App;
 }  // namespace CLI
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Returns the exit code; throws Error and NoDevice.
 using Run = std::function<int()>;
@@ -25,4 +25,4 @@ void add_converge(CLI::App& app, Run& run);
 void add_stability(CLI::App& app, Run& run);
 void add_view(CLI::App& app, Run& run);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

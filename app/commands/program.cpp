@@ -12,7 +12,7 @@
 #include "console/report.h"
 #include "commands/suggestion.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -81,4 +81,4 @@ int run_program(int argc, char** argv) {
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

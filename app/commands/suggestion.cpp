@@ -6,7 +6,7 @@
 
 #include "near_miss.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -45,4 +45,4 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
     return "see " + help;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

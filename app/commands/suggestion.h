@@ -7,9 +7,9 @@ namespace CLI {
 class App;
 }  // namespace CLI
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// After a parse error: the nearest known command or option to the first unknown one, or where to find help.
 std::string suggestion(const CLI::App& app, int argc, char** argv);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

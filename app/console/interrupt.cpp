@@ -2,7 +2,7 @@
 
 #include <csignal>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -33,4 +33,4 @@ const std::atomic<bool>& InterruptGuard::requested() const {
     return interrupt_requested;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

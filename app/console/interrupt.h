@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// While it lives, the first SIGINT or SIGTERM sets `requested`; the second one kills, as ever. One at a time.
 class InterruptGuard {
@@ -16,4 +16,4 @@ public:
     const std::atomic<bool>& requested() const;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -9,7 +9,7 @@
 
 #include "console/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 std::string clock_text(double seconds) {
     const long long whole = std::llround(std::ceil(seconds));
@@ -61,4 +61,4 @@ void ProgressLine::show(const Progress& progress) {
     std::fflush(stderr);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

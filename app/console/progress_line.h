@@ -5,7 +5,7 @@
 
 #include "render/progressive.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Seconds from one redrawing to the next on a terminal, and until the first line elsewhere.
 inline constexpr double terminal_interval = 0.2;
@@ -39,4 +39,4 @@ private:
     Progress shown_;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

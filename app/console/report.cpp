@@ -8,7 +8,7 @@
 
 #include "build_info.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -75,4 +75,4 @@ std::string byte_text(double bytes) {
     return scaled(bytes, 1024, {"B", "KiB", "MiB", "GiB", "TiB"});
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,7 +7,7 @@
 
 #include "scene/warnings.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// "diptych 0.1.0 (commit …)".
 std::string program_version();
@@ -30,4 +30,4 @@ void print_json(const nlohmann::ordered_json& json);
 std::string with_prefix(double value);
 std::string byte_text(double bytes);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

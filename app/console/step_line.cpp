@@ -8,7 +8,7 @@
 
 #include "console/progress_line.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 StepLine::StepLine(int steps)
     : steps_(steps), terminal_(isatty(STDERR_FILENO) == 1), next_(terminal_ ? 0 : first_sparse_line) {}
@@ -33,4 +33,4 @@ void StepLine::begin(const std::string& what) {
     std::fflush(stderr);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

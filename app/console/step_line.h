@@ -5,7 +5,7 @@
 
 #include "clock.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Redrawn in place on a terminal; elsewhere a line after 2 seconds and at each doubling of the time. On a terminal the
 /// line goes when this dies: what the steps found follows it.
@@ -27,4 +27,4 @@ private:
     Stopwatch watch_;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -11,7 +11,7 @@
 #include "renderer/vulkan_renderer.h"
 #endif
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -87,4 +87,4 @@ int exit_code_after_validation(int exit_code) {
     return exit_code;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

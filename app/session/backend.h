@@ -11,7 +11,7 @@
 #include "render/renderer.h"
 #include "scene/scene.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// What --backend may name.
 std::vector<std::string> backend_names();
@@ -31,4 +31,4 @@ void replace_renderers(RendererMaker maker);
 /// gone.
 int exit_code_after_validation(int exit_code);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

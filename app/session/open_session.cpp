@@ -7,7 +7,7 @@
 #include "pose/pose.h"
 #include "session/backend.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -54,4 +54,4 @@ Session open_requested(const Scene& scene, const RenderRequest& request, bool pl
     return plays ? open_played(scene, request) : open_session(scene, request);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

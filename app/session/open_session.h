@@ -4,7 +4,7 @@
 #include "render/request.h"
 #include "render/session.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// What a pack leaves out becomes warnings on stderr: each line once, however often and in however many threads a scene
 /// is packed.
@@ -22,4 +22,4 @@ Session open_requested(const Scene& scene, const RenderRequest& request, bool pl
 /// To play the frames of the request's sequence: settings.moves is put in place where they look back to one another.
 Session open_played(const Scene& scene, RenderRequest request);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

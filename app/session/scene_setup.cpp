@@ -19,7 +19,7 @@
 #include "render/frames.h"
 #include "scene/own_light.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -183,4 +183,4 @@ void report_clips(const Scene& scene, const RenderRequest& request) {
     report_warnings(warnings);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -4,7 +4,7 @@
 #include "render/request.h"
 #include "scene/scene.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Loads the scene, chooses its clips, puts the environment, the sun, the camera and its lens in place. Where its own
 /// light leaves it black it gets a neutral sky, without a camera one that frames it, both with a warning. Says nothing:
@@ -19,4 +19,4 @@ void report_clips(const Scene& scene, const RenderRequest& request);
 /// the request. Says nothing: warnings are in the scene. Throws Error.
 Scene load_requested(RenderRequest& request);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,7 +7,7 @@
 #include "settings/ranges.h"
 #include "pose/pose.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -134,4 +134,4 @@ double depth_of(const Camera& camera, const glm::dvec3& point, double least) {
     return std::max(glm::dot(eye_of(camera) - point, axis(camera, 2)), least);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Turns about `pivot`: `yaw` about the vertical (+Y), counter-clockwise from above, then `pitch`, which raises the
 /// camera. It stops short of the poles; a roll stays.
@@ -43,4 +43,4 @@ void set_field_of_view(Camera& camera, double radians, double distance);
 /// Distance along the axis to a point, at least `least`: the depth for pan.
 double depth_of(const Camera& camera, const glm::dvec3& point, double least);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 FilmFigures film_figures(const Film& film, std::uint64_t version, std::uint32_t spp) {
     FilmFigures figures;
@@ -35,4 +35,4 @@ FilmFigures film_figures(const Film& film, std::uint64_t version, std::uint32_t 
     return figures;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -3,9 +3,9 @@
 
 #include "view/panel_worker.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Of a film of so many samples a pixel.
 FilmFigures film_figures(const Film& film, std::uint64_t version, std::uint32_t spp);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

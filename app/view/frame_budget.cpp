@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -41,4 +41,4 @@ FrameBudget frame_budget(const PanelSpeed& speed, int width, int height, double 
     return {1, preview_divisors.back()};
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

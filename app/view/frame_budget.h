@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// What previews divide width and height by.
 inline constexpr std::array<int, 6> preview_divisors = {1, 2, 3, 4, 6, 8};
@@ -30,4 +30,4 @@ FrameBudget frame_budget(const PanelSpeed& speed, int width, int height, double 
 /// Width or height of a preview; at least 1.
 int preview_side(int side, int divisor);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -13,7 +13,7 @@
 #include "view/panel_engine.h"
 #include "view/view_request.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -210,7 +210,7 @@ std::string FrameLoop::repeat_command(Panel panel, const std::string& output) co
     const std::uint32_t offset = has(panel) ? worker(panel)->seed_offset() : 0;
     request.settings = panel_settings(request.settings, offset, 1);
     const std::shared_ptr<const PanelShot> seen = shot(panel);
-    return diptych::repeat_command(request, seen && seen->divisor == 1 ? std::max(seen->spp, 1U) : 1);
+    return core::repeat_command(request, seen && seen->divisor == 1 ? std::max(seen->spp, 1U) : 1);
 }
 
 template <class Work>
@@ -222,4 +222,4 @@ void FrameLoop::guarded(const Work& work) {
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

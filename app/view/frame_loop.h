@@ -12,7 +12,7 @@
 #include "view/verification_light.h"
 #include "view/view_state.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 enum class Panel { cpu, vulkan };
 
@@ -102,4 +102,4 @@ private:
     std::array<std::string, 2> reported_;  // panels' errors
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -19,7 +19,7 @@
 #include "view/frame_loop.h"
 #include "view/picture_pass.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -223,4 +223,4 @@ int run_headless(const HeadlessOptions& options, LoadedScene scene) {
     return interrupt.requested() ? exit_interrupted : exit_done;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -6,7 +6,7 @@
 #include "view/loader.h"
 #include "view/view_state.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 struct HeadlessOptions {
     ShownPanel panel = ShownPanel::cpu;
@@ -21,4 +21,4 @@ struct HeadlessOptions {
 /// Error, NoDevice.
 int run_headless(const HeadlessOptions& options, LoadedScene scene);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

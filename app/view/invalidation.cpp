@@ -1,6 +1,6 @@
 #include "view/invalidation.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 Change invalidation(const RenderedState& before, const RenderedState& after) {
     if (before.scene != after.scene) {
@@ -9,4 +9,4 @@ Change invalidation(const RenderedState& before, const RenderedState& after) {
     return change_between(moment_of(before), before.request.settings, moment_of(after), after.request.settings);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

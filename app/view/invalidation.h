@@ -4,9 +4,9 @@
 #include "render/moment.h"
 #include "view/view_state.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Fields that decide no sample (files, backend, exposure) count for nothing.
 Change invalidation(const RenderedState& before, const RenderedState& after);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

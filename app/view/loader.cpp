@@ -10,7 +10,7 @@
 #include "image/picture_name.h"
 #include "session/scene_setup.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -158,4 +158,4 @@ void SceneLoader::run() {
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -14,7 +14,7 @@
 #include "scene/default_camera.h"
 #include "scene/scene.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// When a file was last written; nothing where it is missing.
 using FileStamp = std::optional<std::filesystem::file_time_type>;
@@ -76,4 +76,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -12,7 +12,7 @@
 #include "view/renderer_on_device.h"
 #include "view/view_request.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -279,4 +279,4 @@ KeptFilm PanelEngine::film() {
     return kept;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -11,7 +11,7 @@
 #include "view/invalidation.h"
 #include "view/panel_worker.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// What a panel renders the state with: the preview's size, its own seed, and what chains of frames need and cannot
 /// have.
@@ -96,4 +96,4 @@ private:
     std::uint32_t passes_from_ = 0;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -8,7 +8,7 @@
 #include "error.h"
 #include "view/panel_engine.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 PanelWorker::PanelWorker(std::string backend, RendererFactory factory, std::uint32_t seed_offset)
     : backend_(std::move(backend)), seed_offset_(seed_offset),
@@ -168,4 +168,4 @@ void PanelWorker::run(RendererFactory factory) {
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -18,11 +18,11 @@
 #include "render/renderer.h"
 #include "view/view_state.h"
 
-namespace diptych {
+namespace diptych::core {
 struct DeviceFilm;  // vk_backend/renderer/device_film.h
 }
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 class PanelEngine;
 
@@ -129,4 +129,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

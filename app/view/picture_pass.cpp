@@ -10,7 +10,7 @@
 #include "renderer/vulkan_renderer.h"
 #endif
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 #if DIPTYCH_VULKAN
 
@@ -94,4 +94,4 @@ Image PicturePass::picture() const {
 
 PicturePass::~PicturePass() = default;
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,7 +7,7 @@
 #include "pack/packed_scene.h"
 #include "view/panel_worker.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 class PicturePass {
 public:
@@ -31,4 +31,4 @@ private:
     std::unique_ptr<Device> device_;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -4,7 +4,7 @@
 #include "renderer/path_renderer.h"
 #endif
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 #if DIPTYCH_VULKAN
 
@@ -28,4 +28,4 @@ void aim_dispatches(Renderer&, double) {}
 
 #endif
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -4,7 +4,7 @@
 
 #include "error.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -31,4 +31,4 @@ ShownPanel shown_panel_from_name(const std::string& name) {
     throw Error("--panel " + name + ": there are only vulkan, cpu, split, difference");
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

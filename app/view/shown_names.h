@@ -5,7 +5,7 @@
 
 #include "view/view_state.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 const char* name_of(ShownPanel panel);
 const char* name_of(ShownLayer layer);
@@ -13,4 +13,4 @@ const char* name_of(ShownLayer layer);
 /// Throws Error, listing the names there are.
 ShownPanel shown_panel_from_name(const std::string& name);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

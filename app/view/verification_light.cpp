@@ -7,7 +7,7 @@
 
 #include "view/invalidation.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -88,4 +88,4 @@ void ErrorHistory::add(const PanelShot& shot, double now) {
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -8,7 +8,7 @@
 
 #include "view/panel_worker.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// The looks of a running test: its z wanders as samples come, so only what hardly ever happens by chance is called
 /// out.
@@ -60,4 +60,4 @@ private:
     double begin_ = 0;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

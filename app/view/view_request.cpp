@@ -5,7 +5,7 @@
 #include "pose/pose.h"
 #include "render/frames.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 Moment moment_of(const RenderedState& state) {
     Moment moment = requested_lights(state.request);
@@ -38,4 +38,4 @@ RenderRequest view_request(const RenderedState& state, const Scene& loaded) {
     return request;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -10,7 +10,7 @@
 #include "render/request.h"
 #include "scene/scene.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// All that decides a panel's samples. The film has the size of request.settings.
 struct RenderedState {
@@ -78,4 +78,4 @@ struct ViewJob {
     double frame_seconds = 1.0 / 60;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

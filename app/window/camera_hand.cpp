@@ -7,7 +7,7 @@
 #include "view/camera_control.h"
 #include "view/panel_worker.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -114,4 +114,4 @@ bool focus_at(const glm::dvec2& point, const KeptFilm& picture, ViewState& state
     return true;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,7 +7,7 @@
 #include "view/view_state.h"
 #include "window/window.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 struct KeptFilm;
 
@@ -59,4 +59,4 @@ private:
 /// nothing.
 bool focus_at(const glm::dvec2& point, const KeptFilm& picture, ViewState& state);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -86,4 +86,4 @@ DisplayRequest choose_display(const ShownState& shown, const DeviceFilm& cpu, co
     return request;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

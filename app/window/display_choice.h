@@ -7,11 +7,11 @@
 #include "view/view_state.h"
 #include "window/legend.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// The request that shows `shown` in a picture of that width in pixels; `legend` becomes what its ramp means. `seen` is
 /// where the numbers of the frame before lay.
 DisplayRequest choose_display(const ShownState& shown, const DeviceFilm& cpu, const DeviceFilm& vulkan,
                               std::uint32_t width, const std::optional<DisplayRange>& seen, Legend& legend);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -1,6 +1,6 @@
 #include "window/film_source.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 DeviceFilm FilmSource::film_of(const FrameLoop& loop, Panel panel) {
     const std::shared_ptr<const PanelShot> shot = loop.shot(panel);
@@ -21,4 +21,4 @@ DeviceFilm FilmSource::film_of(const FrameLoop& loop, Panel panel) {
     return upload.on_device;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

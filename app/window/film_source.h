@@ -7,7 +7,7 @@
 #include "renderer/device_film.h"
 #include "view/frame_loop.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 class FilmSource {
 public:
@@ -31,4 +31,4 @@ private:
     std::array<Upload, 2> uploads_;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

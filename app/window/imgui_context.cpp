@@ -7,7 +7,7 @@
 
 #include "window/imgui_pass.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 ImguiContext::ImguiContext(const Window& window) : window_(window) {
     ImGui::CreateContext();
@@ -45,4 +45,4 @@ void ImguiContext::begin_frame() {
     ImGui::GetBackgroundDrawList()->AddImage((ImTextureID)picture_texture, {0, 0}, ImGui::GetIO().DisplaySize);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -4,7 +4,7 @@
 #include "window/theme.h"
 #include "window/window.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// The current context while it lives; there is one at a time.
 class ImguiContext {
@@ -29,4 +29,4 @@ private:
     float ratio_ = 0;  // pixels a unit of the window
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -9,7 +9,7 @@
 #include "commands/commands.h"
 #include "shader_binaries.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -312,4 +312,4 @@ void ImguiPass::draw(const vk::raii::CommandBuffer& commands, const Frame& frame
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -12,7 +12,7 @@
 
 struct ImDrawData;
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// What ImGui::Image is to be given: the view that `record` is handed.
 inline constexpr std::intptr_t picture_texture = 1;
@@ -63,4 +63,4 @@ private:
     vk::Extent2D extent_;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -5,7 +5,7 @@
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 void draw_interface(const Theme& theme, const InterfaceFacts& facts, ViewState& state, InterfaceState& interface,
                     const PixelReplay& replay) {
@@ -40,4 +40,4 @@ void draw_interface(const Theme& theme, const InterfaceFacts& facts, ViewState& 
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -16,7 +16,7 @@
 #include "window/pixel_replay.h"
 #include "window/theme.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// What one panel has to tell.
 struct PanelFacts {
@@ -93,4 +93,4 @@ void draw_divider(const Theme& theme, ViewState& state, InterfaceState& interfac
 /// Whether samples are taken of both panels at once: split or difference.
 bool shows_both(const ShownState& shown);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,7 +7,7 @@
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -68,4 +68,4 @@ void draw_animation_bar(const Theme& theme, ViewState& state, const InterfaceSta
     ImGui::PopStyleVar();
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

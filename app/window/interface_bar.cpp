@@ -7,7 +7,7 @@
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -138,4 +138,4 @@ void draw_top_bar(const Theme& theme, const InterfaceFacts& facts, ViewState& st
     ImGui::PopStyleVar();
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

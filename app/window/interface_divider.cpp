@@ -5,7 +5,7 @@
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 void draw_divider(const Theme& theme, ViewState& state, InterfaceState& interface) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -52,4 +52,4 @@ void draw_divider(const Theme& theme, ViewState& state, InterfaceState& interfac
     tag("Vulkan", colors::vulkan, false);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

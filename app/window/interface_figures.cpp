@@ -8,7 +8,7 @@
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -179,4 +179,4 @@ void draw_figures(const Theme& theme, const InterfaceFacts& facts, const ViewSta
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -3,7 +3,7 @@
 #include "window/shortcuts.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -89,4 +89,4 @@ void draw_help(const Theme& theme, InterfaceState& interface) {
     ImGui::PopStyleVar();
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

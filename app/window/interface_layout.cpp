@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 bool is_wide(const Theme& theme, ImVec2 size) {
     return size.x >= theme.units(220);
@@ -36,4 +36,4 @@ void begin_panel(const char* name, const Box& box) {
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

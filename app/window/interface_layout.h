@@ -3,7 +3,7 @@
 
 #include "window/interface.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 struct Box {
     ImVec2 at;
@@ -27,4 +27,4 @@ Layout layout_of(const Theme& theme, const InterfaceState& interface, ImVec2 siz
 /// A panel that stands where it is told to: its height follows its content up to the box's. End it with ImGui::End.
 void begin_panel(const char* name, const Box& box);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

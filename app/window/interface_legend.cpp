@@ -8,7 +8,7 @@
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -50,4 +50,4 @@ void draw_legend(const Theme& theme, const Legend& legend, const ViewState& stat
     draw.AddText({at.x + (size.x - ImGui::CalcTextSize(note).x) / 2, y}, packed(colors::muted), note);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

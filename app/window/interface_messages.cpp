@@ -7,7 +7,7 @@
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -90,4 +90,4 @@ void draw_messages(const Theme& theme, const InterfaceFacts& facts, InterfaceSta
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,7 +7,7 @@
 #include "window/interface.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -129,4 +129,4 @@ void draw_error_plot(const Theme& theme, const InterfaceFacts& facts) {
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

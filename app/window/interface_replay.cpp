@@ -7,7 +7,7 @@
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -112,4 +112,4 @@ void draw_replay(const Theme& theme, const PixelReplay& replay, InterfaceState& 
     ImGui::End();
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -10,7 +10,7 @@
 #include "window/interface_layout.h"
 #include "window/widgets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -168,4 +168,4 @@ void draw_settings(const Theme& theme, const InterfaceFacts& facts, ViewState& s
     ImGui::End();
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// What a ramp of colours means.
 struct Legend {
@@ -15,4 +15,4 @@ struct Legend {
     std::string unit;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -13,7 +13,7 @@
 #include "device/validation.h"
 #include "renderer/vulkan_renderer.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -100,4 +100,4 @@ Panel OpenView::main_panel() const {
                                                                                                  : Panel::cpu;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -22,7 +22,7 @@
 #include "window/view_window.h"
 #include "window/window.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 class OpenView {
 public:
@@ -85,4 +85,4 @@ private:
     std::uint64_t generation_ = 1;  // of the scene that the title names
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

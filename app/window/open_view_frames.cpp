@@ -15,7 +15,7 @@
 #include "view/invalidation.h"
 #include "window/display_choice.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -140,4 +140,4 @@ InterfaceFacts OpenView::facts() const {
     return facts;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

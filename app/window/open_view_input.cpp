@@ -16,7 +16,7 @@
 #include "image/image_file.h"
 #include "window/view_commands.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 void OpenView::read_input(double timeout) {
     input_ = window_.poll(timeout);
@@ -162,4 +162,4 @@ void OpenView::take_answers() {
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -6,7 +6,7 @@
 
 #include "render/save_film.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 std::filesystem::path next_picture(const std::filesystem::path& folder, const std::string& scene,
                                    const std::string& extension) {
@@ -34,4 +34,4 @@ std::optional<std::filesystem::path> FilmSaver::save() {
     return path_;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "view/panel_worker.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// FOLDER/SCENE-view-001.EXTENSION: the first number that no picture of either kind has.
 std::filesystem::path next_picture(const std::filesystem::path& folder, const std::string& scene,
@@ -30,4 +30,4 @@ private:
     std::filesystem::path path_;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

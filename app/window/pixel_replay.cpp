@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -58,4 +58,4 @@ void PixelReplay::take(Answer& answer) {
     compare_paths(result_);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

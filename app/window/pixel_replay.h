@@ -9,7 +9,7 @@
 #include "measure/replay.h"
 #include "view/frame_loop.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 class PixelReplay {
 public:
@@ -44,4 +44,4 @@ private:
     std::string error_;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

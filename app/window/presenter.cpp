@@ -1,6 +1,6 @@
 #include "window/presenter.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -108,4 +108,4 @@ void Presenter::reload_font() {
     stale_ = stale_font_ = true;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

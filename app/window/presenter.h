@@ -11,7 +11,7 @@
 #include "window/imgui_pass.h"
 #include "window/window.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 class Presenter {
 public:
@@ -56,4 +56,4 @@ private:
     bool drawn_ = false;       // the picture has been recorded and submitted
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

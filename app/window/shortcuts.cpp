@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -65,4 +65,4 @@ std::optional<int> camera_of(const KeyPress& press) {
     return number ? std::optional(press.key - GLFW_KEY_1) : std::nullopt;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

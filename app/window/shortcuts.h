@@ -6,7 +6,7 @@
 
 #include "window/window.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 enum class Command {
     hide_interface,
@@ -53,4 +53,4 @@ struct Gesture {
 };
 std::span<const Gesture> gestures();
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

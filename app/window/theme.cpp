@@ -4,7 +4,7 @@
 
 #include "fonts.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -93,4 +93,4 @@ Theme apply_theme(float scale, float ratio) {
     return theme;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

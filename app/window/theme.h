@@ -3,7 +3,7 @@
 
 #include <imgui.h>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Lengths in units of the window, colours as display values.
 struct Theme {
@@ -41,4 +41,4 @@ inline const ImVec4 vulkan{0.46F, 0.78F, 0.96F, 1};
 /// pixels a unit of the window.
 Theme apply_theme(float scale, float ratio);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -4,7 +4,7 @@
 
 #include "settings/ranges.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -90,4 +90,4 @@ void run_command(Command command, bool both, ViewState& state, InterfaceState& i
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -5,10 +5,10 @@
 #include "window/interface.h"
 #include "window/shortcuts.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Changes the state, or notes a wish where more than the state is needed. `both`: whether there are two panels to
 /// choose from.
 void run_command(Command command, bool both, ViewState& state, InterfaceState& interface);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -9,7 +9,7 @@
 #include "settings/names.h"
 #include "view/shown_names.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 void ViewLog::Closer::operator()(std::FILE* file) const {
     if (file != stdout) {
@@ -53,7 +53,7 @@ void ViewLog::follow(const InterfaceFacts& facts, const ViewState& state, const 
     note("panel", panel_, name_of(state.shown.panel));
     note("layer", layer_, name_of(state.shown.layer));
     const RenderSettings& settings = state.rendered.request.settings;
-    note("integrator", integrator_, diptych::name_of(settings.integrator));
+    note("integrator", integrator_, core::name_of(settings.integrator));
     if (width_ != settings.width || height_ != settings.height) {
         width_ = settings.width;
         height_ = settings.height;
@@ -78,7 +78,7 @@ void ViewLog::follow(const InterfaceFacts& facts, const ViewState& state, const 
                                               {"height", shot.height},
                                               {"divisor", shot.divisor},
                                               {"spp", shot.spp},
-                                              {"integrator", diptych::name_of(shot.state.request.settings.integrator)},
+                                              {"integrator", core::name_of(shot.state.request.settings.integrator)},
                                               {"scene", shot.state.scene}};
         if (shot.version != seen.version || shot.divisor != seen.divisor) {
             seen = {shot.version, 0, shot.divisor};
@@ -91,4 +91,4 @@ void ViewLog::follow(const InterfaceFacts& facts, const ViewState& state, const 
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

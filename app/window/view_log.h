@@ -10,7 +10,7 @@
 
 #include "window/interface.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 class ViewLog {
 public:
@@ -46,4 +46,4 @@ private:
     std::map<std::string, ImVec2> placed_;
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

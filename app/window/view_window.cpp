@@ -3,10 +3,10 @@
 #include "console/exit_codes.h"
 #include "window/open_view.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 int show_window(const WindowOptions& options, LoadedScene scene) {
     return OpenView(options, std::move(scene)).run() ? exit_interrupted : exit_done;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

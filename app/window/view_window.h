@@ -6,7 +6,7 @@
 #include "view/loader.h"
 #include "view/view_state.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 struct WindowOptions {
     ShownPanel panel = ShownPanel::split;
@@ -23,4 +23,4 @@ struct WindowOptions {
 /// device that can show anything on it.
 int show_window(const WindowOptions& options, LoadedScene scene);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

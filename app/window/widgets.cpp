@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 bool section(const Theme& theme, const char* title, bool open) {
     ImGui::Dummy({0, theme.units(0.5F)});
@@ -212,4 +212,4 @@ ImU32 packed(const ImVec4& color) {
     return ImGui::ColorConvertFloat4ToU32(color);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -10,7 +10,7 @@
 #include "settings/ranges.h"
 #include "window/theme.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// A heading that folds what follows; true while open.
 bool section(const Theme& theme, const char* title, bool open = true);
@@ -76,4 +76,4 @@ void explain(const char* text);
 
 ImU32 packed(const ImVec4& color);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -12,7 +12,7 @@
 
 #include "error.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -201,4 +201,4 @@ void wake_window() {
     glfwPostEmptyEvent();
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

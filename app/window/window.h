@@ -10,7 +10,7 @@ struct GLFWwindow;
 struct VkInstance_T;
 struct VkSurfaceKHR_T;
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 enum class MouseButton { left, right, middle };
 
@@ -85,4 +85,4 @@ void check_display();
 /// Wakes a poll from any thread.
 void wake_window();
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdio>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr std::array<float, 7> roughnesses{0.05F, 0.15F, 0.3F, 0.45F, 0.6F, 0.8F, 1.0F};
@@ -65,4 +65,4 @@ GeneratedScene generate_brdf_grid(const GenerateOptions&) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

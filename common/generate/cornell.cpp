@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Quad = std::array<glm::vec3, 4>;
@@ -102,4 +102,4 @@ GeneratedScene generate_cornell(const GenerateOptions&) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr float half_court = 6, bay = 2.4F, gallery_floor = 0.3F, springing = 3.3F, arcade_top = 4.7F;
@@ -169,4 +169,4 @@ GeneratedScene generate_courtyard(const GenerateOptions&) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

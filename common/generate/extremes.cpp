@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 Material matte(const char* name, const glm::vec3& color) {
@@ -268,4 +268,4 @@ GeneratedScene generate_extreme_terminator(const GenerateOptions&) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

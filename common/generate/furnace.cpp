@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace diptych {
+namespace diptych::core {
 
 GeneratedScene generate_furnace(const GenerateOptions&) {
     GeneratedScene out;
@@ -38,4 +38,4 @@ GeneratedScene generate_furnace(const GenerateOptions&) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 #include "error.h"
 #include "generate/scenes.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr SceneGenerator generators[] = {
@@ -57,4 +57,4 @@ GeneratedScene generate_scene(const std::string& name, const GenerateOptions& op
     throw Error("no generated scene is called '" + name + "'; there are " + names);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace diptych {
+namespace diptych::core {
 
 struct GenerateOptions {
     std::uint64_t count = 1000;  // many-lights: how many emitters
@@ -34,4 +34,4 @@ std::span<const SceneGenerator> extreme_scene_generators();
 /// Throws Error, listing the names, where none is called `name`.
 GeneratedScene generate_scene(const std::string& name, const GenerateOptions& options = {});
 
-}  // namespace diptych
+}  // namespace diptych::core

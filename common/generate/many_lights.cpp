@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr std::size_t palette_size = 48;
@@ -200,4 +200,4 @@ GeneratedScene generate_many_lights(const GenerateOptions& options) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr int cells = 7;
@@ -136,4 +136,4 @@ GeneratedScene generate_mirror_maze(const GenerateOptions& options) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr float width = 4, height = 3, depth = 4;  // metres; open towards +Z
@@ -133,4 +133,4 @@ GeneratedScene generate_moving_light(const GenerateOptions&) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr int map_size = 256;
@@ -128,4 +128,4 @@ GeneratedScene generate_normal_map(const GenerateOptions&) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

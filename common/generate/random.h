@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace diptych {
+namespace diptych::core {
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
 struct GeneratorRandom {
@@ -20,4 +20,4 @@ struct GeneratorRandom {
     std::uint64_t below(std::uint64_t count) { return std::uint64_t(uniform() * double(count)); }
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

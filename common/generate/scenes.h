@@ -3,7 +3,7 @@
 
 #include "generate/generate.h"
 
-namespace diptych {
+namespace diptych::core {
 
 GeneratedScene generate_cornell(const GenerateOptions& options);
 GeneratedScene generate_veach_mis(const GenerateOptions& options);
@@ -28,4 +28,4 @@ GeneratedScene generate_extreme_broken_mesh(const GenerateOptions& options);
 GeneratedScene generate_extreme_normal_map(const GenerateOptions& options);
 GeneratedScene generate_extreme_terminator(const GenerateOptions& options);
 
-}  // namespace diptych
+}  // namespace diptych::core

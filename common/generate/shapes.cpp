@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-namespace diptych {
+namespace diptych::core {
 
 void add_quad(Primitive& primitive, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d) {
     const auto first = static_cast<std::uint32_t>(primitive.positions.size());
@@ -131,4 +131,4 @@ Camera make_camera(std::string name, const glm::dvec3& eye, const glm::dvec3& ta
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

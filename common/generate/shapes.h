@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace diptych {
+namespace diptych::core {
 
 /// Two triangles a b c, a c d. The front is where a b c d runs counter-clockwise.
 void add_quad(Primitive& primitive, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d);
@@ -37,4 +37,4 @@ glm::dmat4 translation(double x, double y, double z);
 /// Perspective, +Y up; `vertical_fov` in degrees.
 Camera make_camera(std::string name, const glm::dvec3& eye, const glm::dvec3& target, double vertical_fov);
 
-}  // namespace diptych
+}  // namespace diptych::core

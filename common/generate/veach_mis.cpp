@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr glm::dvec3 eye{0, 2, 15};
@@ -61,4 +61,4 @@ GeneratedScene generate_veach_mis(const GenerateOptions&) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

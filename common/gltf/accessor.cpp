@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 // The most elements that an accessor may have without bytes in the file to back them. Other attributes of the same
@@ -212,4 +212,4 @@ std::vector<std::uint32_t> read_integers(const Document& document, int index, st
     return read<std::uint32_t>(document, accessor, components, object);
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -8,7 +8,7 @@
 
 #include "gltf/document.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// The accessor a primitive or a skin names. Throws Error in the name of `object` where there is none of that index.
 const tinygltf::Accessor& find_accessor(const Document& document, int index, const std::string& object);
@@ -22,4 +22,4 @@ std::vector<float> read_numbers(const Document& document, int index, std::size_t
 std::vector<std::uint32_t> read_integers(const Document& document, int index, std::size_t components,
                                          const std::string& object);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -6,7 +6,7 @@
 #include "gltf/channel.h"
 #include "gltf/material.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 using Json = nlohmann::json;
@@ -123,4 +123,4 @@ void attach_motion(Document& document, const Motion& motion, const std::vector<i
     }
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -7,7 +7,7 @@
 #include "gltf/nodes.h"
 #include "scene/scene.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// What moves, in the file's indices, and where its nodes went.
 struct Motion {
@@ -30,4 +30,4 @@ Motion read_motion(Document& document, const NodeTree& tree, Scene& scene);
 /// the scene's lights the file's.
 void attach_motion(Document& document, const Motion& motion, const std::vector<int>& light_sources, Scene& scene);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -7,7 +7,7 @@
 #include "gltf/accessor.h"
 #include "scene/scene.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 using Names = std::map<std::string, int>;
@@ -148,4 +148,4 @@ Attributes read_attributes(Document& document, const tinygltf::Primitive& primit
     return attributes;
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

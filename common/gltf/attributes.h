@@ -9,7 +9,7 @@
 
 #include "gltf/document.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// Raw vertex data; a vector is empty where the file has no such attribute. Joints and weights hold whole sets of four
 /// a vertex.
@@ -29,4 +29,4 @@ struct Attributes {
 Attributes read_attributes(Document& document, const tinygltf::Primitive& primitive,
                            const std::vector<double>& morph_weights, bool skinned, const std::string& object);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

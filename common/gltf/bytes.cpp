@@ -7,7 +7,7 @@
 #include "error.h"
 #include "near_miss.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 int hex_digit(char c) {
@@ -217,4 +217,4 @@ GlbChunks split_glb(const std::vector<std::uint8_t>& bytes) {
     return chunks;
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// Reads a whole file. Throws Error (its message without the file's name) where it is missing, no regular file (a
 /// device may never end) or unreadable.
@@ -40,4 +40,4 @@ bool is_glb(const std::vector<std::uint8_t>& bytes);
 /// Splits a binary glTF 2.0. `json` looks into `bytes`. Throws Error (its message without the file's name).
 GlbChunks split_glb(const std::vector<std::uint8_t>& bytes);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -8,7 +8,7 @@
 
 #include "gltf/accessor.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 using Json = nlohmann::json;
@@ -246,4 +246,4 @@ std::optional<Channel> read_channel(Document& document, const Json& animation, c
     return out;
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

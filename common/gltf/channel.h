@@ -8,7 +8,7 @@
 #include "gltf/document.h"
 #include "scene/warnings.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// A channel of `animation`, an object of the file's JSON, its target in the file's indices. Faulty keyframes are
 /// repaired, with a warning in `warnings`. Nothing, with a warning, where the channel moves what cannot be moved or its
@@ -16,4 +16,4 @@ namespace diptych::gltf {
 std::optional<Channel> read_channel(Document& document, const nlohmann::json& animation, const nlohmann::json& channel,
                                     const std::string& object, Warnings& warnings);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

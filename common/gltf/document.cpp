@@ -9,7 +9,7 @@
 #include "gltf/bytes.h"
 #include "gltf/schema.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 using Json = nlohmann::json;
@@ -317,4 +317,4 @@ Document read_document(const std::filesystem::path& path, const GltfOptions& opt
     return document;
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -12,7 +12,7 @@
 #include "gltf/import.h"
 #include "scene/warnings.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -59,4 +59,4 @@ bool declares_extension(const Document& document, const std::string& name);
 /// that is not among the ignored ones.
 Document read_document(const std::filesystem::path& path, const GltfOptions& options = {});
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -6,7 +6,7 @@
 #include "error.h"
 #include "image/image_library.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 std::vector<std::uint8_t> encode_image(const TextureImage& image) {
     const std::size_t texels =
@@ -31,4 +31,4 @@ std::vector<std::uint8_t> encode_image(const TextureImage& image) {
     }
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

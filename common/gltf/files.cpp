@@ -7,7 +7,7 @@
 #include "error.h"
 #include "gltf/bytes.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 nlohmann::json parse(const std::filesystem::path& path) {
@@ -47,4 +47,4 @@ std::vector<std::filesystem::path> gltf_files(const std::filesystem::path& path)
     return files;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -11,7 +11,7 @@
 #include "error.h"
 #include "image/image_library.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 constexpr std::int64_t max_texels = std::int64_t{1} << 28;
@@ -148,4 +148,4 @@ DecodedImages decode_images(const Document& document, const std::vector<int>& wa
     return decoded;
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

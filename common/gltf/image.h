@@ -6,7 +6,7 @@
 #include "gltf/document.h"
 #include "scene/scene.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// Decodes PNG, JPEG, WebP and what else OpenImageIO reads (told by content) to 8-bit RGBA; alpha stays unassociated,
 /// nothing is colour-managed. Throws Error (its message without the file's name).
@@ -27,4 +27,4 @@ struct DecodedImages {
 /// Decodes `document.images[i]` for each i of `wanted`, in that order, on all cores. What cannot be had is a checker.
 DecodedImages decode_images(const Document& document, const std::vector<int>& wanted);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -13,7 +13,7 @@
 #include "gltf/nodes.h"
 #include "gltf/viewpoints.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using namespace gltf;
@@ -146,4 +146,4 @@ Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

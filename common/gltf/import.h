@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct GltfOptions {
     std::vector<std::string>
@@ -23,4 +23,4 @@ struct GltfOptions {
 /// The environment stays empty.
 Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 /// KHR_texture_transform: (u', v') = offset + R·S·(u, v), R turning counter-clockwise in an image whose v points down.
@@ -202,4 +202,4 @@ void place(Json& node, const glm::dmat4& to_world) {
     node["matrix"] = matrix;
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

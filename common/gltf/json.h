@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 using Json = nlohmann::ordered_json;
 
@@ -35,4 +35,4 @@ Json json_camera(const Camera& camera);
 /// Adds a placement to a node: nothing, `translation`, `translation` and `scale`, or the whole `matrix`.
 void place(Json& node, const glm::dmat4& to_world);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -1,6 +1,6 @@
 #include "gltf/json_animation.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 Json node_target(int node, const char* path) {
@@ -77,4 +77,4 @@ Json json_animation(const Animation& animation, int first_node, const AddAccesso
     return out;
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

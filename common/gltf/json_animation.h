@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// Numbers to an accessor of that many components each; times also want bounds.
 using AddAccessor = std::function<int(const std::vector<float>& numbers, int components, bool with_bounds)>;
@@ -18,4 +18,4 @@ Json json_node(const Node& node);
 Json json_animation(const Animation& animation, int first_node, const AddAccessor& add_accessor,
                     std::set<std::string>& extensions);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

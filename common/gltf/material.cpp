@@ -10,7 +10,7 @@
 
 #include "gltf/image.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 // What maps the file's textures and images to the scene's, which hold only those in use.
@@ -325,4 +325,4 @@ void import_materials(Document& document, Scene& scene) {
     settle_missing_images(context, decoded.problems);
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

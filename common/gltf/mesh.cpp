@@ -6,7 +6,7 @@
 #include "gltf/tangents.h"
 #include "gltf/triangles.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 int default_material(Scene& scene) {
@@ -136,4 +136,4 @@ Mesh import_mesh(Document& document, Scene& scene, int index, const MeshUse& use
     return mesh;
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

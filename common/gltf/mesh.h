@@ -7,7 +7,7 @@
 #include "gltf/document.h"
 #include "scene/scene.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// What sets one use of a mesh apart from another.
 struct MeshUse {
@@ -20,4 +20,4 @@ struct MeshUse {
 /// need.
 Mesh import_mesh(Document& document, Scene& scene, int index, const MeshUse& use);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -7,7 +7,7 @@
 
 #include "pose/pose.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 bool is_finite(const glm::dmat4& matrix) {
@@ -207,4 +207,4 @@ glm::dmat4 require_direction(const Document& document, const std::optional<glm::
     return *placed;
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -9,7 +9,7 @@
 #include "scene/animation.h"
 #include "gltf/document.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 struct NodeTree {
     std::vector<Node> nodes;           // every node of the file, at rest; parents are the file's indices
@@ -29,4 +29,4 @@ std::string node_label(const Document& document, int node);
 /// What pose.h's rigid_placement or light_placement found for this node. Throws Error where that is nothing.
 glm::dmat4 require_direction(const Document& document, const std::optional<glm::dmat4>& placed, int node);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

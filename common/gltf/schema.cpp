@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 using Json = nlohmann::json;
@@ -207,4 +207,4 @@ void check_types(const Document& document, Json& root) {
     }
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

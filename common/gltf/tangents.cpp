@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 template <typename T>
@@ -119,4 +119,4 @@ void derive_tangents(Primitive& primitive, const TextureSlot& slot) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Replaces a primitive's tangents by ones derived for each vertex from positions, normals and the texture coordinates
 /// that `slot` reads (its transform included): the mean of the adjacent triangles' directions of growing u, weighted by
@@ -15,4 +15,4 @@ void derive_tangents(Primitive& primitive, const TextureSlot& slot);
 /// A unit vector orthogonal to the unit vector `normal`.
 glm::vec3 any_orthogonal(glm::vec3 normal);
 
-}  // namespace diptych
+}  // namespace diptych::core

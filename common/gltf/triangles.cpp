@@ -7,7 +7,7 @@
 #include "gltf/accessor.h"
 #include "gltf/tangents.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 template <typename Vector>
@@ -172,4 +172,4 @@ void clean_primitive(Document& document, Primitive& primitive, const std::string
     warn_amount(document, object, bad_colors, "vertex colours are out of range; clamped");
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -8,7 +8,7 @@
 #include "gltf/document.h"
 #include "scene/scene.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// The triangles of a primitive of `vertex_count` vertices: indexed or not, TRIANGLES, TRIANGLE_STRIP or TRIANGLE_FAN
 /// (winding as in glTF 2.0, section 3.7.2.1). None, with a warning, for points and lines. Throws Error where an index
@@ -21,4 +21,4 @@ std::vector<glm::uvec3> read_triangles(Document& document, const tinygltf::Primi
 /// their neutral ones; colours are clamped to [0, 1]. One warning for each kind of change, with its count.
 void clean_primitive(Document& document, Primitive& primitive, const std::string& object);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -6,7 +6,7 @@
 
 #include "pose/pose.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 namespace {
 
 void import_perspective(Document& document, const tinygltf::PerspectiveCamera& source, const std::string& object,
@@ -119,4 +119,4 @@ PunctualLight import_light(Document& document, int index, int node, const NodeTr
     return light;
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

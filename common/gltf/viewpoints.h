@@ -4,7 +4,7 @@
 #include "gltf/nodes.h"
 #include "scene/scene.h"
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// The camera cameras[index] standing in `node`. Throws Error where its values make no view.
 Camera import_camera(Document& document, int index, int node, const NodeTree& tree);
@@ -16,4 +16,4 @@ int find_light(const Document& document, int node);
 /// is unknown.
 PunctualLight import_light(Document& document, int index, int node, const NodeTree& tree);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <unordered_map>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using gltf::Json;
@@ -357,4 +357,4 @@ void write_gltf(const Scene& scene, const std::filesystem::path& path) {
     gltf::write_whole(path, {json});
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

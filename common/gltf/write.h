@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-namespace diptych {
+namespace diptych::core {
 
 /// Writes the scene as `path`: `.gltf` with a `.bin` and PNG images beside it, or one `.glb`. The bytes depend on the
 /// scene alone, except those of PNG images, which depend on the version of zlib too. Instances share meshes; emission,
@@ -15,4 +15,4 @@ namespace diptych {
 /// unknown, a mesh without triangles, an unwritable file.
 void write_gltf(const Scene& scene, const std::filesystem::path& path);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 std::string file_part(std::string name) {
     for (char& c : name)
@@ -46,4 +46,4 @@ void write_whole(const std::filesystem::path& path, std::initializer_list<std::s
     }
 }
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

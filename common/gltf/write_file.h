@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace diptych::gltf {
+namespace diptych::core::gltf {
 
 /// A name fit for a file: letters, digits, - and _; everything else becomes -.
 std::string file_part(std::string name);
@@ -17,4 +17,4 @@ std::string encoded_uri(const std::string& name);
 /// The pieces in one file, which appears whole or not at all. Throws Error where it cannot be written.
 void write_whole(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces);
 
-}  // namespace diptych::gltf
+}  // namespace diptych::core::gltf

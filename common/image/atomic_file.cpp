@@ -11,7 +11,7 @@
 #include "error.h"
 #include "near_miss.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ void check_file_can_be_created(const fs::path& path) {
     const TemporaryFile probe(path);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-namespace diptych {
+namespace diptych::core {
 
 /// Writes the bytes to a temporary name beside `path` and renames it over `path`. On failure the file that was
 /// at `path` before is untouched, nothing else stays behind, and an Error names the file and the reason.
@@ -16,4 +16,4 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view t
 /// Leaves nothing behind.
 void check_file_can_be_created(const std::filesystem::path& path);
 
-}  // namespace diptych
+}  // namespace diptych::core

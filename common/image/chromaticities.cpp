@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 /// XYZ of luminance 1.
@@ -74,4 +74,4 @@ void convert_color(Image& image, const glm::dmat3& matrix) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

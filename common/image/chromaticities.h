@@ -5,7 +5,7 @@
 
 #include "image/image.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// CIE 1931 x, y of the primaries and of white, which is RGB (1, 1, 1).
 struct Chromaticities {
@@ -42,4 +42,4 @@ glm::dmat3 xyz_to_rec709(const glm::dvec2& white);
 /// can still be said.
 void convert_color(Image& image, const glm::dmat3& matrix);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include "error.h"
 #include "film/magma.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Rgb = std::array<float, 3>;
@@ -84,4 +84,4 @@ Image side_by_side(const std::vector<Image>& panels, int gap) {
     return result;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 
 #include "image/image.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// One channel: per pixel sqrt(mean over the channels of (a-b)^2 / (b^2 + 1e-2)), the root of the pixel's share of
 /// relMSE. Not finite where a or b is not. Throws an Error for different shapes.
@@ -19,4 +19,4 @@ Image heatmap(const Image& scalar, float lo, float hi);
 /// channels.
 Image side_by_side(const std::vector<Image>& panels, int gap = 4);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 
 /// `height` rows of `width` pixels from the top left, `channels` interleaved floats a pixel.
 /// What the values mean (linear radiance, display values, a scalar) is said by whoever hands the image over.
@@ -34,4 +34,4 @@ inline Image make_image(int width, int height, int channels, float fill = 0.0f) 
     return image;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

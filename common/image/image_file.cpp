@@ -9,7 +9,7 @@
 #include "image/atomic_file.h"
 #include "image/image_library.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ void write_hdr(const fs::path& path, const Image& linear_rgb) {
     encode_and_write(path, [&](const ImageLibrary& library) { return library.encode_hdr(values); });
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -12,7 +12,7 @@
 #include "image/image.h"
 #include "image/pixel_window.h"
 
-namespace diptych {
+namespace diptych::core {
 
 enum class ImageFormat { Exr, Png, Hdr };
 
@@ -56,4 +56,4 @@ void write_png(const std::filesystem::path& path, const Image& display_values);
 /// largest value.
 void write_hdr(const std::filesystem::path& path, const Image& linear_rgb);
 
-}  // namespace diptych
+}  // namespace diptych::core

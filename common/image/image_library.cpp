@@ -5,7 +5,7 @@
 #include "error.h"
 #include "image/library/entry.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr const char* file_name = "libdiptych_images.so";
@@ -32,4 +32,4 @@ const ImageLibrary& image_library() {
     return library;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -15,7 +15,7 @@
 #include "image/picture_layers.h"
 #include "image/pixel_window.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// `height` rows of `width` pixels from the top left, `channels` interleaved bytes a pixel.
 struct ByteImage {
@@ -48,7 +48,7 @@ public:
     virtual void read(size_t part, int begin, int end, std::span<std::uint8_t> values) = 0;
 };
 
-/// Every function throws std::runtime_error with the reason, never diptych::Error. The type information of standard
+/// Every function throws std::runtime_error with the reason, never Error. The type information of standard
 /// exceptions exists once in a process, so the program catches them by type whatever it exports.
 class ImageLibrary {
 public:
@@ -73,4 +73,4 @@ public:
 /// is missing.
 const ImageLibrary& image_library();
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -13,7 +13,7 @@
 #include "image/radiance_file.h"
 #include "image/size_claim.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -156,4 +156,4 @@ RawImage read_raw(const fs::path& path, const std::string& layer, const std::vec
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

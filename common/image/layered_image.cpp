@@ -7,7 +7,7 @@
 
 #include "error.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr const char* metadata_prefix = "diptych:";
@@ -141,4 +141,4 @@ LayeredImage read_image(const std::filesystem::path& path, const std::string& la
     return layers;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "image/image_file.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct LayeredImage {
     Image color;                          // 3 channels, linear Rec.709
@@ -41,4 +41,4 @@ Image linear_color(const RawImage& raw);
 /// IEC 61966-2-1, display value in [0, 1] to linear.
 float srgb_decoded(float encoded);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 
 #include "error.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -125,4 +125,4 @@ Difference compare_images(const LayeredImage& a, const LayeredImage& b) {
     return result;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

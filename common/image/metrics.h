@@ -6,7 +6,7 @@
 
 #include "image/layered_image.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Of picture a against the reference b, over the pixels where both are finite. All sums in double; means over pixels
 /// and channels. NaN means unknown (nothing to divide by, no standard errors).
@@ -26,4 +26,4 @@ struct Difference {
 /// Throws an Error unless both have the same size and three channels.
 Difference compare_images(const LayeredImage& a, const LayeredImage& b);
 
-}  // namespace diptych
+}  // namespace diptych::core

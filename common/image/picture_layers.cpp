@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 enum class Kind { Rgb, Xyz, Grey, None };
@@ -151,4 +151,4 @@ ChosenPicture choose_picture(const std::vector<PicturePart>& parts, const std::s
     return chosen(*found[0], layers.size() > 1 && !plain_of_one_part);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

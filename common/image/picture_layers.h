@@ -7,7 +7,7 @@
 
 #include "image/chromaticities.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// What the header of one part (EXR), or of a whole file, says.
 struct PicturePart {
@@ -34,4 +34,4 @@ struct ChosenPicture {
 /// more than one.
 ChosenPicture choose_picture(const std::vector<PicturePart>& parts, const std::string& layer);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-namespace diptych {
+namespace diptych::core {
 
 PictureName picture_name(const std::string& text) {
     std::error_code ignored;
@@ -16,4 +16,4 @@ PictureName picture_name(const std::string& text) {
     return {text, ""};
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace diptych {
+namespace diptych::core {
 
 struct PictureName {
     std::filesystem::path file;
@@ -15,4 +15,4 @@ struct PictureName {
 /// is the longest file name that a colon follows; where there is none, the whole text is the file.
 PictureName picture_name(const std::string& text);
 
-}  // namespace diptych
+}  // namespace diptych::core

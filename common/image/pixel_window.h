@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace diptych {
+namespace diptych::core {
 
 /// Columns x to x + width - 1, rows y to y + height - 1; x grows to the right, y downwards.
 struct PixelWindow {
@@ -29,4 +29,4 @@ inline PixelWindow intersection(const PixelWindow& a, const PixelWindow& b) {
     return both;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

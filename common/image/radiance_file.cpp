@@ -12,7 +12,7 @@
 #include "image/radiance_header.h"
 #include "image/size_claim.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;
@@ -142,4 +142,4 @@ Image read_radiance(const std::filesystem::path& path) {
     return image;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

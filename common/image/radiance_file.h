@@ -7,7 +7,7 @@
 
 #include "image/image.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Whether a file's first bytes are those of a Radiance picture.
 bool is_radiance(std::string_view first_bytes);
@@ -17,4 +17,4 @@ bool is_radiance(std::string_view first_bytes);
 /// is refused before the picture's memory is taken.
 Image read_radiance(const std::filesystem::path& path);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 [[noreturn]] void fail(const std::string& reason) {
@@ -126,4 +126,4 @@ RadianceHeader read_radiance_header(std::string_view bytes) {
     return header;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

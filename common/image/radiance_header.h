@@ -6,7 +6,7 @@
 
 #include "image/chromaticities.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// One axis of the resolution line.
 struct RadianceAxis {
@@ -34,4 +34,4 @@ struct RadianceHeader {
 /// the Radiance distribution) says. Throws a std::runtime_error that says what is wrong, without the file's name.
 RadianceHeader read_radiance_header(std::string_view bytes);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -70,4 +70,4 @@ void draw_text(Image& image, int x, int y, std::string_view text, int scale, flo
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

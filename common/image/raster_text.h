@@ -5,7 +5,7 @@
 
 #include "image/image.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Width in pixels of a text at that scale; its height is 5 * scale.
 int text_width(std::string_view text, int scale);
@@ -18,4 +18,4 @@ void draw_text(Image& image, int x, int y, std::string_view text, int scale, flo
 /// A filled rectangle, cut off at the image's edges.
 void draw_rectangle(Image& image, int x, int y, int width, int height, float shade);
 
-}  // namespace diptych
+}  // namespace diptych::core

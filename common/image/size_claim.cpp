@@ -1,6 +1,6 @@
 #include "image/size_claim.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr std::int64_t most_pixels = std::int64_t{1} << 28;  // 16384 x 16384
@@ -24,4 +24,4 @@ std::string size_claim_problem(std::int64_t width, std::int64_t height, std::int
     return "";
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

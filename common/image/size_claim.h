@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace diptych {
+namespace diptych::core {
 
 /// Bytes of floats that any file may claim: for pixels that it stores, and for a display window, which may be large and
 /// nearly empty.
@@ -18,4 +18,4 @@ inline constexpr double display_grant = 1 << 30;
 std::string size_claim_problem(std::int64_t width, std::int64_t height, std::int64_t channels, std::size_t file_bytes,
                                double grant = stored_grant);
 
-}  // namespace diptych
+}  // namespace diptych::core

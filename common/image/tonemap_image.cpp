@@ -6,7 +6,7 @@
 #include "error.h"
 #include "film/tonemap.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 struct Name {
@@ -61,4 +61,4 @@ Image tonemapped(const Image& linear_rgb, ToneMap op, float exposure_ev) {
     return display;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 
 #include "image/image.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// The values are those of the shared header.
 enum class ToneMap : uint32_t { None = 0, Exponential = 1, Uncharted2 = 2, Aces = 3, PbrNeutral = 4 };
@@ -21,4 +21,4 @@ const char* tonemap_name(ToneMap op);
 /// Linear RGB times 2^exposure_ev, tone mapped, sRGB encoded: display values, for write_png. Same shape.
 Image tonemapped(const Image& linear_rgb, ToneMap op, float exposure_ev);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include "settings/names.h"
 #include "stats/convergence.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -183,4 +183,4 @@ std::optional<BenchResult> bench_integrators(const BenchSettings& settings, cons
     return whole ? std::optional(bench.result()) : std::nullopt;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

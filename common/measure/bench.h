@@ -10,7 +10,7 @@
 #include "measure/open_session.h"
 #include "measure/step_hook.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct BenchSettings {
     std::vector<Integrator> integrators;
@@ -51,4 +51,4 @@ std::optional<BenchResult> bench_integrators(const BenchSettings& settings, cons
                                              const RenderRequest& request, const OpenSession& open,
                                              const std::atomic<bool>& cancel, const StepHook& begin);
 
-}  // namespace diptych
+}  // namespace diptych::core

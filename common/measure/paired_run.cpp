@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -48,4 +48,4 @@ PairedRun compare_all_paths(Session& a, Session& b, std::uint32_t spp) {
     return run;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

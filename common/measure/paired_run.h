@@ -8,7 +8,7 @@
 #include "render/paired_test.h"
 #include "render/session.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct PairedRun {
     Integrator integrator = Integrator::path;
@@ -21,4 +21,4 @@ struct PairedRun {
 /// a backend keeps no record of its paths.
 PairedRun compare_all_paths(Session& a, Session& b, std::uint32_t spp);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace diptych {
+namespace diptych::core {
 
 void compare_paths(Replay& replay) {
     if (replay.paths.size() > 1) {
@@ -40,4 +40,4 @@ std::string parting_text(const Replay& replay) {
                        name_of(parting.field), parting.difference, replay.tolerance);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

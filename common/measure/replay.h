@@ -8,7 +8,7 @@
 #include "render/recorded_path.h"
 #include "render/session.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// One path on one or two backends.
 struct Replay {
@@ -30,4 +30,4 @@ Replay replay_path(std::vector<Session>& sessions, const shared::PathQuery& quer
 /// "They part at vertex 2: light pdf differs by 0.004." in one line.
 std::string parting_text(const Replay& replay);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -189,4 +189,4 @@ std::vector<ReplayGroup> replay_groups(const Replay& replay, const shared::Rende
     return groups;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

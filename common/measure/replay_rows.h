@@ -6,7 +6,7 @@
 
 #include "measure/replay.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct ReplayRow {
     std::string label;               // what belongs to the row above begins with two spaces
@@ -29,4 +29,4 @@ std::string light_text(std::uint32_t id, const shared::RenderConstants* constant
 std::string lobe_text(std::uint32_t lobe);
 std::string shadow_text(std::uint32_t shadow);
 
-}  // namespace diptych
+}  // namespace diptych::core

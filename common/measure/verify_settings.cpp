@@ -4,7 +4,7 @@
 
 #include "settings/names.h"
 
-namespace diptych {
+namespace diptych::core {
 
 std::string text_of(const SideName& side) {
     return fmt::format("{}/{}", side.backend, side.backend == "oracle" ? side.oracle_mode : name_of(side.integrator));
@@ -14,4 +14,4 @@ std::string text_of(const PairName& pair) {
     return text_of(pair.a) + " - " + text_of(pair.b) + (pair.frame ? fmt::format(", frame {}", *pair.frame) : "");
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 
 #include "settings/settings.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct VerifySettings {
     std::uint32_t runs = 32;        // a side
@@ -44,4 +44,4 @@ struct PairName {
 /// "vulkan/path - cpu/path", with ", frame 4" where one is.
 std::string text_of(const PairName& pair);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include <limits>
 
 
-namespace diptych {
+namespace diptych::core {
 
 VerifySide::VerifySide(const SideName& name, const VerifySubject& subject, const VerifySettings& settings,
                        const std::vector<std::uint32_t>& frames, const SeedPlan& seeds, std::uint32_t side,
@@ -97,4 +97,4 @@ void VerifySide::keep(std::size_t frame, std::uint32_t run, std::uint32_t done, 
     kept = done == 0 ? means : merge_means(kept, done, means, samples);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

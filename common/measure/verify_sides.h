@@ -14,7 +14,7 @@
 #include "measure/open_session.h"
 #include "measure/verify_settings.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// What is rendered, and on what.
 struct VerifySubject {
@@ -70,4 +70,4 @@ private:
     std::uint64_t nonfinite_ = 0;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 
 #include "clock.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -229,4 +229,4 @@ std::optional<SuiteResult> run_suite(const VerifySettings& settings, const Verif
     return suite;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

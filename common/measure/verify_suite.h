@@ -6,7 +6,7 @@
 #include "stats/bias_verdict.h"
 #include "measure/verify_sides.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct PairResult {
     PairName names;
@@ -38,4 +38,4 @@ std::optional<SuiteResult> run_suite(const VerifySettings& settings, const Verif
                                      const std::vector<PairName>& pairs, std::uint32_t seed,
                                      const std::atomic<bool>& cancel, const RunHook& hook);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace diptych {
+namespace diptych::core {
 
 std::vector<double> pick_probabilities(std::span<const double> weights, double defensive) {
     const auto usable = [](double w) { return w > 0 ? std::min(w, 1e300) : 0.0; };
@@ -65,4 +65,4 @@ std::vector<shared::AliasEntry> build_alias_table(std::span<const double> probab
     return table;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

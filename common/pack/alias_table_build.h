@@ -6,7 +6,7 @@
 
 #include "language/scene_types.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Probabilities of picking each of `weights`, in double: `defensive` of the whole is spread evenly over the positive
 /// ones, the rest goes by weight. Weights are scaled by their maximum first, so that no range overflows; NaN and
@@ -16,4 +16,4 @@ std::vector<double> pick_probabilities(std::span<const double> weights, double d
 /// Alias table (Walker 1977) of probabilities that sum to 1, by Vose's linear-time construction (1991), in double.
 std::vector<shared::AliasEntry> build_alias_table(std::span<const double> probabilities);
 
-}  // namespace diptych
+}  // namespace diptych::core

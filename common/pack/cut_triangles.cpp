@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 /// Halvings of the mesh's extent after which a triangle is left as it is: the eye may lie in its plane.
@@ -216,4 +216,4 @@ std::optional<Mesh> cut_near_triangles(const Mesh& mesh, const glm::dvec3& eye, 
     return cut;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

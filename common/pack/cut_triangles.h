@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// A place on a triangle is known to an ulp of the triangle's size, and rays leave it by a few of those (ray_offset.h).
 /// So that neither is seen, no edge may be longer than this, as a multiple of the eye's distance to the triangle: 0.25
@@ -27,4 +27,4 @@ inline constexpr std::size_t most_cut_triangles = std::size_t{1} << 20U;
 std::optional<Mesh> cut_near_triangles(const Mesh& mesh, const glm::dvec3& eye, const glm::dmat3& object_to_world,
                                        std::size_t& budget);
 
-}  // namespace diptych
+}  // namespace diptych::core

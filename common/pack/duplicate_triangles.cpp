@@ -9,7 +9,7 @@
 
 #include "language/compat.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Corners = std::array<glm::vec3, 3>;
@@ -244,4 +244,4 @@ Mesh without_triangles(const Mesh& mesh, const std::vector<LeftOut>& left_out) {
     return kept;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Triangles to leave out of one primitive, in ascending order.
 using LeftOut = std::vector<std::uint32_t>;
@@ -25,4 +25,4 @@ DuplicateTriangles find_duplicate_triangles(const Scene& scene);
 /// The mesh without them.
 Mesh without_triangles(const Mesh& mesh, const std::vector<LeftOut>& left_out);
 
-}  // namespace diptych
+}  // namespace diptych::core

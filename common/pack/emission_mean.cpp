@@ -4,7 +4,7 @@
 
 #include "leaves.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace shared {
 namespace {
 
@@ -49,4 +49,4 @@ double EmissionMean::luminance(const shared::EmissiveTriangle& light) const {
     return sum / count;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 
 #include "pack/packed_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Evaluates emission with the shared kernels, on the host.
 class EmissionMean {
@@ -18,4 +18,4 @@ private:
     const PackedScene& packed_;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 /// As may_be_passed (emitter.kernel.h) tells shaders: what they think could be found must be found.
@@ -34,4 +34,4 @@ std::vector<shared::vec3> emitter_corners(const PackedScene& packed) {
     return corners;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

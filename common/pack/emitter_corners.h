@@ -6,7 +6,7 @@
 
 #include "pack/packed_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Whether the settings sample materials for light points, and there are emitters to be found.
 bool searches_emitters(const PackedScene& packed);
@@ -17,4 +17,4 @@ bool searches_emitters(const PackedScene& packed);
 /// loses others of the structure.
 std::vector<shared::vec3> emitter_corners(const PackedScene& packed);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 #include "bsdf/bsdf.h"
 #include "language/scene_features.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 /// Whether a microfacet lobe has any weight; textures only scale these factors.
@@ -116,4 +116,4 @@ std::vector<std::string> feature_names(std::uint32_t features) {
     return names;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include "settings/settings.h"
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Whether a material's emission can be anything but zero, at any moment.
 bool emits(const Material& material);
@@ -19,4 +19,4 @@ std::uint32_t needed_features(const Scene& scene, const RenderSettings& settings
 /// The command line's names of the bits that are set, in the order of their list.
 std::vector<std::string> feature_names(std::uint32_t features);
 
-}  // namespace diptych
+}  // namespace diptych::core

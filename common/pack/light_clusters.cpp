@@ -7,7 +7,7 @@
 #include "pack/alias_table_build.h"
 #include "pack/pack_parts.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 /// Of the extent of all lights: nearer than this to a light, it no longer matters how near.
@@ -254,4 +254,4 @@ void weigh_clusters(PackedScene& packed) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

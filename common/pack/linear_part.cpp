@@ -6,7 +6,7 @@
 
 #include "language/compat.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr double rounding = 1e-12;
@@ -163,4 +163,4 @@ std::optional<glm::dmat3> with_sheets_apart(const glm::dmat3& m, const Spread& s
     });
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-namespace diptych {
+namespace diptych::core {
 
 /// m = left · diag(values) · transpose(right), both orthogonal, values from the largest to the smallest.
 struct SingularValues {
@@ -58,4 +58,4 @@ inline constexpr double least_gap = 1e-5;
 /// else is changed. Nothing where no area is left.
 std::optional<glm::dmat3> with_sheets_apart(const glm::dmat3& m, const Spread& spread);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -11,7 +11,7 @@
 #include "pack/linear_part.h"
 #include "pack/range.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 /// Triangles and vertices that may be copied so that instances have vertices in the world; those beyond are thickened.
@@ -346,4 +346,4 @@ MeshPlan plan_meshes(const Scene& scene, const glm::dvec3& origin, const Camera*
     return Planner(scene, origin, camera).plan();
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

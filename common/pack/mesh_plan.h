@@ -9,7 +9,7 @@
 
 #include "pack/packed_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// The corners of a box; empty where low is above high.
 struct Box {
@@ -42,4 +42,4 @@ bool has_good_inverse(const glm::dmat3& linear, double distance, double reach);
 /// its own, transformed in double. `camera` may be null. Throws Error where the scene is out of range.
 MeshPlan plan_meshes(const Scene& scene, const glm::dvec3& origin, const Camera* camera);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 #include "pack/pack_parts.h"
 #include "pack/range.h"
 
-namespace diptych {
+namespace diptych::core {
 
 void pack_camera(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
     shared::Camera& out = packed.constants.camera;
@@ -27,4 +27,4 @@ void pack_camera(const Scene& scene, const RenderSettings& settings, PackedScene
     out.focus_distance = static_cast<float>(camera.lens.focus_distance);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

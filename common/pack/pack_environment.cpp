@@ -6,7 +6,7 @@
 #include "pack/alias_table_build.h"
 #include "pack/pack_parts.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 double luminance(const glm::dvec3& c) {
@@ -91,4 +91,4 @@ void pack_environment(const Scene& scene, const RenderSettings& settings, Packed
     place_environment(scene, packed);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include "pack/pack_parts.h"
 #include "pack/range.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -248,4 +248,4 @@ void pack_lights(const Scene& scene, PackedScene& packed) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include "pack/pack_parts.h"
 #include "film/tonemap.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 std::uint32_t wrap_bits(Wrap wrap) {
@@ -104,4 +104,4 @@ void pack_materials(const Scene& scene, PackedScene& packed) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include "pack/pack_parts.h"
 #include "pack/range.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 template <class T>
@@ -149,4 +149,4 @@ void pack_instances(const Scene& scene, const MeshPlan& plan, PackedScene& packe
     require_indexable(scene, packed.instances.size(), "instances");
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

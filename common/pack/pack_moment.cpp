@@ -5,7 +5,7 @@
 #include "pack/pack_parts.h"
 #include "pack/range.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 void require_same(const Scene& scene, std::size_t now, std::size_t then, const char* what) {
@@ -144,4 +144,4 @@ void pack_view(const Scene& scene, const RenderSettings& settings, PackedScene& 
     pack_camera(scene, settings, packed);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

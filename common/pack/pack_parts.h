@@ -6,7 +6,7 @@
 #include "pack/mesh_plan.h"
 #include "pack/packed_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Throws Error where copies of the view would not fill the film: a part of one would reuse pixels that are not there.
 void check_atlas(const RenderSettings& settings);
@@ -68,4 +68,4 @@ std::uint64_t new_revision();
 /// Throws Error unless `size` elements of a buffer can be named by 32-bit indices.
 void require_indexable(const Scene& scene, std::size_t size, const char* what);
 
-}  // namespace diptych
+}  // namespace diptych::core

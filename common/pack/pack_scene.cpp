@@ -7,7 +7,7 @@
 #include "pack/pack_parts.h"
 #include "pose/pose.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 const Camera* rendered_camera(const Scene& scene, const RenderSettings& settings) {
@@ -140,4 +140,4 @@ bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedS
     return true;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include "numbers/sampler.h"
 #include "pack/pack_parts.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 // pack_settings hands these over by their numbers.
@@ -76,4 +76,4 @@ void pack_settings(const RenderSettings& settings, shared::RenderConstants& c) {
     c.resampling.visibility = static_cast<std::uint32_t>(from.visibility);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -11,7 +11,7 @@
 #include "language/scene_buffers.h"
 #include "language/scene_features.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Where one mesh's primitives lie in `geometries`; the unit of a bottom-level acceleration structure.
 struct MeshRange {
@@ -113,4 +113,4 @@ void pack_view(const Scene& scene, const RenderSettings& settings, PackedScene& 
 /// it would have it, but for origin, radius and clusters of lights, which stay. False, and nothing is done, where pack_scene must run anew.
 bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
-}  // namespace diptych
+}  // namespace diptych::core

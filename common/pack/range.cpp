@@ -7,7 +7,7 @@
 #include "error.h"
 #include "pack/linear_part.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 std::string metres(double length) {
@@ -77,4 +77,4 @@ void require_camera(const Scene& scene, const Camera& camera, const glm::dvec2& 
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 
 #include "pack/mesh_plan.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// No vertex, light or camera may be farther from the first camera, metres: the product of three edges is a volume.
 inline constexpr double farthest = 1e12;
@@ -29,4 +29,4 @@ void require_near(const Scene& scene, const std::string& object, const char* wha
 /// Throws Error where the camera, its lens or its film, of that half width and height, is out of range.
 void require_camera(const Scene& scene, const Camera& camera, const glm::dvec2& half_film, const PackedScene& packed);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include "error.h"
 #include "near_miss.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 // Tables that a channel's target is an index into.
@@ -91,4 +91,4 @@ Warnings clip_warnings(const Scene& scene) {
     return warnings;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

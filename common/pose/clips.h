@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 #include "scene/warnings.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Lets one clip play, an index into the animations, and forgets the warnings of the others.
 void play_clip(Scene& scene, std::size_t clip);
@@ -22,4 +22,4 @@ std::size_t find_clip(const Scene& scene, const std::string& name_or_index);
 /// The warnings of the clips that play.
 Warnings clip_warnings(const Scene& scene);
 
-}  // namespace diptych
+}  // namespace diptych::core

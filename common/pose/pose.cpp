@@ -6,7 +6,7 @@
 
 #include "error.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 glm::vec3 radiance(const glm::dvec3& color, double factor) {
@@ -212,4 +212,4 @@ std::optional<glm::dmat4> rigid_part(const glm::dmat4& matrix) {
     return rigid;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

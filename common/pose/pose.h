@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Whether any animation that plays (clips.h) changes it over time.
 bool moves(const Scene& scene);
@@ -33,4 +33,4 @@ std::optional<glm::dmat4> rigid_placement(const std::vector<Node>& nodes, int no
 std::optional<glm::dmat4> light_placement(PunctualType type, const std::vector<Node>& nodes, int node,
                                           const glm::dmat4& to_world);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -1,7 +1,7 @@
 #include "random_scene/parts.h"
 #include "generate/shapes.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -38,4 +38,4 @@ void add_random_cameras(RandomScene& out, Draws draws) {
     out.settings.height = wide ? 16 : 24;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

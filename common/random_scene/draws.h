@@ -7,7 +7,7 @@
 
 #include "generate/random.h"
 
-namespace diptych {
+namespace diptych::core {
 
 enum class Topic : std::uint64_t { meshes = 1, materials, textures, lights, camera, settings, motion };
 
@@ -60,4 +60,4 @@ private:
     GeneratorRandom random_;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

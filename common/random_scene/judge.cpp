@@ -7,7 +7,7 @@
 #include "random_scene/scene_files.h"
 #include "settings/names.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -252,4 +252,4 @@ Verdict verdict_of(const std::vector<RandomPair>& pairs, const JudgeOptions& opt
     return known ? Verdict::pass : Verdict::inconclusive;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

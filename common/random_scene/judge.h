@@ -13,7 +13,7 @@
 #include "render/session.h"
 #include "stats/bias_verdict.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Renderers by name. An empty function leaves that renderer out.
 struct Renderers {
@@ -81,4 +81,4 @@ ReachedPower reached_power(const std::vector<RandomPair>& pairs, const std::stri
 /// believe that, or where fewer than nine tenths of a backend's pairs are known well enough. Else PASS.
 Verdict verdict_of(const std::vector<RandomPair>& pairs, const JudgeOptions& options);
 
-}  // namespace diptych
+}  // namespace diptych::core

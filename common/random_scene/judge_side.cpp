@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -78,4 +78,4 @@ void RandomSide::keep(std::size_t place, std::size_t run, std::uint32_t done, st
     kept = done == 0 ? means : merge_means(kept, done, means, samples);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

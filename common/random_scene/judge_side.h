@@ -7,7 +7,7 @@
 #include "random_scene/judge.h"
 #include "render/film_tiles.h"
 
-namespace diptych {
+namespace diptych::core {
 
 class RandomSide {
 public:
@@ -39,4 +39,4 @@ private:
     std::uint64_t nonfinite_ = 0;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include "random_scene/parts.h"
 #include "generate/shapes.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -66,4 +66,4 @@ void add_random_lights(RandomScene& out, Draws draws) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

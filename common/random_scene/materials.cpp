@@ -3,7 +3,7 @@
 #include "random_scene/parts.h"
 #include "generate/shapes.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -145,4 +145,4 @@ int add_random_material(Scene& scene, const TexturePool& textures, Role role, Dr
     return add_material(scene, std::move(material));
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

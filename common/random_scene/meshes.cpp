@@ -3,7 +3,7 @@
 #include "random_scene/parts.h"
 #include "generate/shapes.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -251,4 +251,4 @@ void add_random_meshes(Scene& scene, const TexturePool& textures, std::uint64_t 
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

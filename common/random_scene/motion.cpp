@@ -4,7 +4,7 @@
 
 #include "random_scene/parts.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -306,4 +306,4 @@ void add_random_motion(RandomScene& out, Draws draws) {
     out.settings.max_depth = std::min(out.settings.max_depth, 3U);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

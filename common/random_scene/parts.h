@@ -4,7 +4,7 @@
 #include "random_scene/draws.h"
 #include "random_scene/random_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Images and textures for the materials to choose from: colours and factors, normal maps.
 struct TexturePool {
@@ -42,4 +42,4 @@ void draw_settings(RenderSettings& settings, bool in_room, Draws draws);
 /// Animations of what the scene has, and the nodes that they move.
 void add_random_motion(RandomScene& out, Draws draws);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 
 #include "random_scene/parts.h"
 
-namespace diptych {
+namespace diptych::core {
 
 RandomScene make_random_scene(std::uint64_t seed) {
     RandomScene out;
@@ -24,4 +24,4 @@ RandomScene make_moving_random_scene(std::uint64_t seed) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include "settings/settings.h"
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// The environment and the lens are part of the scene, though no glTF file holds them.
 struct RandomScene {
@@ -29,4 +29,4 @@ RandomScene make_random_scene(std::uint64_t seed);
 /// make_random_scene's.
 RandomScene make_moving_random_scene(std::uint64_t seed);
 
-}  // namespace diptych
+}  // namespace diptych::core

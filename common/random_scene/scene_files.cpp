@@ -11,7 +11,7 @@
 #include "gltf/import.h"
 #include "gltf/write.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -107,4 +107,4 @@ Scene read_random_scene(const RandomScene& random, const std::filesystem::path& 
     return scene;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

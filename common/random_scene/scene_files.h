@@ -6,7 +6,7 @@
 
 #include "random_scene/random_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Writes `path` (.gltf or .glb), what belongs beside it, and the environment's map as NAME-sky.exr. Returns the options
 /// that `diptych render` wants beside the file for the same picture: what no glTF file can hold.
@@ -16,4 +16,4 @@ std::string write_random_scene(const RandomScene& random, const std::filesystem:
 /// other than that a material reads a UV set that its mesh lacks, which scenes are drawn to do.
 Scene read_random_scene(const RandomScene& random, const std::filesystem::path& path);
 
-}  // namespace diptych
+}  // namespace diptych::core

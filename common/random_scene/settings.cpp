@@ -1,6 +1,6 @@
 #include "random_scene/parts.h"
 
-namespace diptych {
+namespace diptych::core {
 
 void draw_settings(RenderSettings& settings, bool in_room, Draws draws) {
     settings.integrator =
@@ -24,4 +24,4 @@ void draw_settings(RenderSettings& settings, bool in_room, Draws draws) {
     resampling.visibility = draws.pick({ResamplingVisibility::shading, ResamplingVisibility::target});
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -188,4 +188,4 @@ RandomScene shrink(RandomScene failing, const StillFails& still_fails, int most_
     return failing;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

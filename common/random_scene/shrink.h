@@ -5,7 +5,7 @@
 
 #include "random_scene/random_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Whether a scene still shows the fault.
 using StillFails = std::function<bool(const RandomScene&)>;
@@ -17,4 +17,4 @@ bool drop_nodes(Scene& scene);
 /// the lens) as long as the scene fails without it, until nothing can be dropped or `most_trials` scenes were tried.
 RandomScene shrink(RandomScene failing, const StillFails& still_fails, int most_trials = 200);
 
-}  // namespace diptych
+}  // namespace diptych::core

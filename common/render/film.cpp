@@ -6,7 +6,7 @@
 
 #include "render/film_statistics.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -105,4 +105,4 @@ LayeredImage develop(const Film& film) {
     return layers;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

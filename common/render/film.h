@@ -7,7 +7,7 @@
 #include "film/film_pixel.h"
 #include "image/layered_image.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Row-major from the top. `moments` and `first_hits` are empty where their layer was not asked for.
 struct Film {
@@ -29,4 +29,4 @@ FilmTotals film_totals(const Film& film);
 /// Means, standard errors of the means, first-hit means; double inside. A pixel without samples is black.
 LayeredImage develop(const Film& film);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 
 #include "render/film.h"
 
-namespace diptych {
+namespace diptych::core {
 
 using Rgb = std::array<double, 3>;
 
@@ -21,4 +21,4 @@ Rgb pixel_standard_error(const shared::FilmPixel& pixel, const shared::FilmMomen
 /// whose standard error is known; none where no moments are kept or no pixel has two samples.
 std::optional<double> estimated_relmse(const Film& film);
 
-}  // namespace diptych
+}  // namespace diptych::core

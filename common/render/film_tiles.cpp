@@ -2,7 +2,7 @@
 
 #include "render/film_statistics.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -60,4 +60,4 @@ RunMeans merge_means(const RunMeans& a, double samples_a, const RunMeans& b, dou
     return result;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include "render/film.h"
 #include "stats/tile_test.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct TileGrid {
     int columns = 0;
@@ -21,4 +21,4 @@ RunMeans tile_means(const Film& film, int tile);
 /// The means of two films of one run over different samples, `samples_a` and `samples_b` of each pixel.
 RunMeans merge_means(const RunMeans& a, double samples_a, const RunMeans& b, double samples_b);
 
-}  // namespace diptych
+}  // namespace diptych::core

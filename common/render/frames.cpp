@@ -2,7 +2,7 @@
 
 #include "scene/orbit.h"
 
-namespace diptych {
+namespace diptych::core {
 
 Moment requested_lights(const RenderRequest& request) {
     Moment moment;
@@ -28,4 +28,4 @@ Moment FrameMoments::at(std::uint32_t frame) const {
     return moment;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include "render/moment.h"
 #include "render/request.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// The scene at rest under the request's scale and turn of the environment and its sun.
 Moment requested_lights(const RenderRequest& request);
@@ -24,4 +24,4 @@ private:
     glm::dvec3 pivot_{0};
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

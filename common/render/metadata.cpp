@@ -9,7 +9,7 @@
 #include "settings/ranges.h"
 #include "settings/names.h"
 
-namespace diptych {
+namespace diptych::core {
 
 std::string shell_quoted(const std::string& word) {
     const auto plain = [](unsigned char c) {
@@ -257,4 +257,4 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     return metadata;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

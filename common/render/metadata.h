@@ -8,7 +8,7 @@
 #include "path/path_record.h"
 #include "render/request.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// How a render went.
 struct RenderOutcome {
@@ -35,4 +35,4 @@ std::string replay_command(const RenderRequest& request, const shared::PathQuery
 /// Values by name; "command" is repeat_command of what was reached.
 std::map<std::string, std::string> render_metadata(const RenderRequest& request, const RenderOutcome& outcome);
 
-}  // namespace diptych
+}  // namespace diptych::core

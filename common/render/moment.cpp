@@ -7,7 +7,7 @@
 #include "pose/pose.h"
 #include "scene/orbit.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -100,4 +100,4 @@ Change change_between(const Moment& before, const RenderSettings& settings_befor
     return settings_before.seed != settings_after.seed ? Change::picture : Change::nothing;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

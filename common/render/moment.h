@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 #include "scene/sun.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct Orbit {
     glm::dvec3 pivot{0};  // world space of the file, metres; see orbit_pivot
@@ -51,4 +51,4 @@ Change change_between(const Moment& before, const RenderSettings& settings_befor
 /// But for the seed.
 bool same_settings(const RenderSettings& a, const RenderSettings& b);
 
-}  // namespace diptych
+}  // namespace diptych::core

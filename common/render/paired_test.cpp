@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using shared::NONE;
@@ -161,4 +161,4 @@ PairedReport PairedTest::report() const {
     return report;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

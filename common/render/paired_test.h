@@ -11,7 +11,7 @@
 
 #include "path/path_record.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct PairedLimits {
     double relative =
@@ -84,4 +84,4 @@ private:
 /// as its last.
 std::uint32_t first_divergence(const shared::PathSummary& a, const shared::PathSummary& b);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include "error.h"
 #include "render/film_statistics.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -167,4 +167,4 @@ ProgressiveResult render_progressively(Session& session, const ProgressiveTarget
     return render_progressively(session.renderer(), target, cancel, hooks);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

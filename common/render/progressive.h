@@ -9,7 +9,7 @@
 #include "render/renderer.h"
 #include "render/session.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// When to stop: at the first of the limits; at least one of them is set.
 struct ProgressiveTarget {
@@ -60,4 +60,4 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
 ProgressiveResult render_progressively(Session& session, const ProgressiveTarget& target,
                                        const std::atomic<bool>& cancel, ProgressiveHooks hooks = {});
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using shared::PathVertexRecord;
@@ -133,4 +133,4 @@ std::optional<Parting> find_parting(const RecordedPath& a, const RecordedPath& b
     return std::nullopt;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 
 #include "path/path_record.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// All rays that the path went along, each with where it ended, and what came of them.
 struct RecordedPath {
@@ -56,4 +56,4 @@ double relative_difference(const glm::vec3& a, const glm::vec3& b);
 /// The first field that differs by more than `tolerance`, or none.
 std::optional<Parting> find_parting(const RecordedPath& a, const RecordedPath& b, double tolerance);
 
-}  // namespace diptych
+}  // namespace diptych::core

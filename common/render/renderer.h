@@ -14,7 +14,7 @@
 #include "render/recorded_path.h"
 #include "render/resampling_schedule.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct PackedScene;
 
@@ -109,4 +109,4 @@ private:
     [[noreturn]] void refuse_paths() const { throw Error("--backend " + backend() + ": keeps no record of its paths"); }
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -11,7 +11,7 @@
 #include "scene/sun.h"
 #include "scene/viewpoint.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Environments by name.
 inline constexpr const char* no_environment = "none";
@@ -62,4 +62,4 @@ inline double shown_at(const RenderRequest& request) {
     return request.start + request.warm_up / request.fps;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -2,7 +2,7 @@
 
 #include "path/integrators.h"
 
-namespace diptych {
+namespace diptych::core {
 
 bool needs_stage(ResamplingStage stage, const shared::RenderConstants& constants) {
     const bool resamples = shared::resamples_lights(constants.integrator);
@@ -105,4 +105,4 @@ std::vector<ResamplingStep> ResamplingSchedule::next_frame(std::uint32_t frame) 
     return steps;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

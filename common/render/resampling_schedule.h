@@ -8,7 +8,7 @@
 #include "restir/resampling_memory.h"
 #include "language/scene_types.h"
 
-namespace diptych {
+namespace diptych::core {
 
 enum class ResamplingStage { first_hits, candidates, temporal, spatial, shadows, shade };
 
@@ -61,4 +61,4 @@ private:
     std::uint32_t surfaces_ = 0;  // set, of the last frame
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -31,4 +31,4 @@ LayeredImage save_film(const Film& film, const RenderRequest& request, const Ren
     return layers;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

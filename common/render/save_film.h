@@ -6,10 +6,10 @@
 #include "render/metadata.h"
 #include "render/request.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Develops the film and writes request.output with the metadata of both, by its extension; returns what it wrote.
 /// Throws Error.
 LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include "language/compat.h"
 #include "error.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr std::uint32_t purpose_shift = 28;
@@ -59,4 +59,4 @@ std::uint32_t neighbor_seed(std::uint32_t given, std::uint32_t place) {
     return given + MUTANT(SEEDS_OF_NEIGHBORS_SHARED, place, 0U);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

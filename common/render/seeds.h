@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-namespace diptych {
+namespace diptych::core {
 
 /// The upper 4 bits of a seed. `given` is never derived: 0 is what seeds from the command line have there, as long as
 /// they are below 2^28.
@@ -51,4 +51,4 @@ private:
 /// given, so that the first is the seed itself.
 std::uint32_t neighbor_seed(std::uint32_t given, std::uint32_t place);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include "error.h"
 #include "pose/pose.h"
 
-namespace diptych {
+namespace diptych::core {
 
 Session::Session(const Scene& scene, const RenderSettings& settings, MakeRenderer make, SessionHooks hooks)
     : source_(&scene), make_(std::move(make)), hooks_(std::move(hooks)), settings_(settings) {
@@ -174,4 +174,4 @@ void Session::render(std::uint32_t first, std::uint32_t count, const std::atomic
     done_ = std::max(done_, first + count);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

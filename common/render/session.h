@@ -13,7 +13,7 @@
 #include "render/moment.h"
 #include "render/renderer.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Makes a backend's renderer of a scene and of its pack under these settings; both outlive it.
 using MakeRenderer =
@@ -103,4 +103,4 @@ private:
     double move_seconds_ = 0;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

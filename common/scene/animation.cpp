@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 glm::dvec4 unit_or(const glm::dvec4& q, const glm::dvec4& fallback) {
@@ -115,4 +115,4 @@ double duration(const Animation& animation) {
     return seconds;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 
 #include "scene/warnings.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// A local frame that moves, or that something moving hangs in. A node with a matrix is never itself a target.
 struct Node {
@@ -55,4 +55,4 @@ glm::dvec4 sample_channel(const Channel& channel, double seconds);
 /// The last key's time, or 0 where that is earlier.
 double duration(const Animation& animation);
 
-}  // namespace diptych
+}  // namespace diptych::core

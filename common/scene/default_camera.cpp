@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 void grow(Bounds& bounds, glm::dvec3 point) {
@@ -113,4 +113,4 @@ Camera frame_scene(const Scene& scene) {
     return camera;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// A box in world space, metres; empty where lo > hi.
 struct Bounds {
@@ -23,4 +23,4 @@ Bounds scene_bounds(const Scene& scene);
 /// stood at the origin.
 Camera frame_scene(const Scene& scene);
 
-}  // namespace diptych
+}  // namespace diptych::core

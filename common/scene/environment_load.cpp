@@ -8,7 +8,7 @@
 #include "image/layered_image.h"
 #include "image/picture_name.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 RawImage read_map(const PictureName& name) {
@@ -82,4 +82,4 @@ Environment neutral_sky() {
     return environment;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Reads an equirectangular map as linear radiance, row 0 (+Y) at the top: `FILE`, or `FILE:LAYER` for a layer or part of
 /// an EXR. The file is .hdr, .exr or what else OpenImageIO reads in floating point; how it is read, read_raw says. One
@@ -17,4 +17,4 @@ Environment load_environment(const std::string& name, std::string* warnings = nu
 /// A constant sky, slightly blue, of luminance 1.
 Environment neutral_sky();
 
-}  // namespace diptych
+}  // namespace diptych::core

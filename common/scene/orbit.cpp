@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace diptych {
+namespace diptych::core {
 
 glm::dvec3 orbit_pivot(const Scene& scene, const Camera& camera) {
     return orbit_pivot(scene_bounds(scene), camera);
@@ -27,4 +27,4 @@ void orbit_camera(Camera& camera, const glm::dvec3& pivot, double degrees) {
     camera.camera_to_world = about * camera.camera_to_world;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include "scene/default_camera.h"
 #include "scene/surface_points.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr int side = 24;            // pixels of a view
@@ -118,4 +118,4 @@ OwnLight own_light(const Scene& scene) {
     return light.points == 0 || is_enough(light) ? OwnLight::enough : OwnLight::too_weak;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 enum class OwnLight {
     absent,    // nothing emits
@@ -27,4 +27,4 @@ LightOfView light_of_view(const Scene& scene, const Camera& camera);
 /// on the scene alone, so that every view of a scene has the same light.
 OwnLight own_light(const Scene& scene);
 
-}  // namespace diptych
+}  // namespace diptych::core

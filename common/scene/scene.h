@@ -15,7 +15,7 @@
 #include "scene/animation.h"
 #include "scene/warnings.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// What Environment::kind says; stands before the constant `none`, which its enumerator would shadow otherwise.
 enum class EnvironmentKind { none, constant, map };
@@ -172,4 +172,4 @@ struct Scene {
     Warnings warnings;                  // of the import and of what was added to the scene since
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

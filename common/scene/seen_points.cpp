@@ -5,7 +5,7 @@
 
 #include "scene/surface_points.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 struct PixelHit {
@@ -150,4 +150,4 @@ std::vector<SurfacePoint> seen_points(const Scene& scene, const std::vector<glm:
     return points;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-namespace diptych {
+namespace diptych::core {
 
 PunctualLight sun_light(const Sun& sun) {
     const double azimuth = glm::radians(sun.azimuth);
@@ -21,4 +21,4 @@ PunctualLight sun_light(const Sun& sun) {
     return light;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct Sun {
     double azimuth = 0;     // degrees from -Z, the middle of an environment map, toward +X: clockwise from above
@@ -16,4 +16,4 @@ struct Sun {
 /// White and directional.
 PunctualLight sun_light(const Sun& sun);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 double luminance(const glm::dvec3& c) {
@@ -184,4 +184,4 @@ std::vector<SurfacePoint> emitting_points(const Scene& scene, const std::vector<
     return points;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct SurfacePoint {
     glm::dvec3 position;  // world space
@@ -33,4 +33,4 @@ double emission_at(const Scene& scene, const glm::dvec3& peak, const Primitive& 
                    const glm::dvec3& weights);
 bool covered_at(const Scene& scene, const Primitive& primitive, const glm::uvec3& triangle, const glm::dvec3& weights);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 
 #include "error.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 void place_eye(const Viewpoint& viewpoint, Camera& camera) {
@@ -82,4 +82,4 @@ Viewpoint viewpoint_of(const Camera& camera, double distance) {
     return viewpoint;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

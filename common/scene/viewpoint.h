@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// What of a camera is another than the scene has it; empty changes nothing. World space of the file, metres.
 struct Viewpoint {
@@ -37,4 +37,4 @@ void place_at(const Viewpoint& viewpoint, Camera& camera);
 /// the point `distance` ahead.
 Viewpoint viewpoint_of(const Camera& camera, double distance);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::core {
 
 // Null where the object is counted already.
 Warning* Warnings::find_or_add(const std::string& kind, const std::string& object, const std::string& detail) {
@@ -59,4 +59,4 @@ std::string line_of(const Warning& warning) {
     return line;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 
 /// One kind of fault, and the objects that have it.
 struct Warning {
@@ -46,4 +46,4 @@ private:
 /// The line of one warning.
 std::string line_of(const Warning& warning);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 
 #include "error.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -103,4 +103,4 @@ MisHeuristic mis_from_name(const std::string& name) {
     return value_in(heuristics, "--mis", name);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 
 #include "settings/settings.h"
 
-namespace diptych {
+namespace diptych::core {
 
 const char* name_of(Integrator integrator);
 const char* name_of(BrdfModel brdf);
@@ -24,4 +24,4 @@ MisHeuristic mis_from_name(const std::string& name);
 ResamplingMis resampling_mis_from_name(const std::string& name);
 ResamplingVisibility resampling_visibility_from_name(const std::string& name);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 
 #include "language/scene_types.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 static_assert(ranges::neighbors.accepted.most == shared::RESAMPLING_MAX_NEIGHBORS);
@@ -46,4 +46,4 @@ std::string label_of(const std::string& setting) {
     return label;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace diptych {
+namespace diptych::core {
 
 struct NumberRange {
     double least;
@@ -70,4 +70,4 @@ std::string key_of(const std::string& setting);
 /// "Max depth", "Reuse MIS": the name of a setting in an interface.
 std::string label_of(const std::string& setting);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 
 #include "path/integrators.h"
 
-namespace diptych {
+namespace diptych::core {
 
 enum class Integrator { brdf, direct, path, ris, restir };
 enum class BrdfModel { ggx, blinn_phong };
@@ -69,4 +69,4 @@ inline bool chains_frames(const RenderSettings& settings) {
     return reuses(settings.integrator) && settings.resampling.temporal;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

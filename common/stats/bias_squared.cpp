@@ -7,7 +7,7 @@
 #include "stats/distributions.h"
 #include "stats/welch.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -64,4 +64,4 @@ BiasSquared bias_squared(const DeviationSums& sums, std::span<const float> refer
     return result;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 
 /// Sums over K renders with seeds of their own, of D = X - R for every value of the picture; R is the reference.
 /// Deviations, so that nothing cancels in single precision.
@@ -44,4 +44,4 @@ struct BiasSquared {
 BiasSquared bias_squared(const DeviationSums& sums, std::span<const float> reference_variance,
                          std::span<const float> weights, int width, int channels, int block);
 
-}  // namespace diptych
+}  // namespace diptych::core

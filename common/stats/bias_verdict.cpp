@@ -9,7 +9,7 @@
 #include "stats/multiple_testing.h"
 #include "stats/power.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -187,4 +187,4 @@ Verdict overall(std::span<const PairVerdict> verdicts) {
     return worst;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 
 #include "stats/tile_test.h"
 
-namespace diptych {
+namespace diptych::core {
 
 enum class Verdict { pass, fail, inconclusive };
 
@@ -62,4 +62,4 @@ std::vector<PairVerdict> judge(std::span<const TileComparison> comparisons, cons
 /// FAIL where one fails, else INCONCLUSIVE where one is.
 Verdict overall(std::span<const PairVerdict> verdicts);
 
-}  // namespace diptych
+}  // namespace diptych::core

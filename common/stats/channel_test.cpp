@@ -7,7 +7,7 @@
 #include "stats/distributions.h"
 #include "stats/symmetric_matrix.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -215,4 +215,4 @@ double resampled_channel_p(const ChannelRuns& runs, std::span<const double> sign
     return p_of_moments(sides[0], sides[1], runs.count_a, runs.count_b, rank, 2);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

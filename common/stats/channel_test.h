@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 
 using Channels = std::array<double, 3>;
 
@@ -50,4 +50,4 @@ double channel_p(const ChannelRuns& runs);
 /// one less. State tested, three runs a side or more.
 double resampled_channel_p(const ChannelRuns& runs, std::span<const double> sign);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 
 #include "stats/distributions.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -83,4 +83,4 @@ double uniform_deviate(const std::vector<double>& observed) {
     return chi_square_deviate(chi_square_uniform(observed));
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

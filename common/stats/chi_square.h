@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 
 /// With fewer than two cells to compare, `freedom` is 0 and `p` 1: nothing has been tested.
 struct ChiSquareFit {
@@ -29,4 +29,4 @@ double uniform_deviate(const std::vector<double>& observed);
 /// What a deviate of fixed seeds must stay below: one in 3.4 million tests would pass it by chance.
 inline constexpr double deviate_limit = 5;
 
-}  // namespace diptych
+}  // namespace diptych::core

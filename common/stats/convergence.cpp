@@ -7,7 +7,7 @@
 #include "stats/distributions.h"
 #include "stats/welch.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -176,4 +176,4 @@ TargetTime time_to_target(std::span<const double> seconds, std::span<const doubl
     return {TargetTime::Kind::later, seconds.back()};
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

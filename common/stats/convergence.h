@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 
 /// A number and its confidence interval; NaN where nothing can be said.
 struct Interval {
@@ -54,4 +54,4 @@ struct TargetTime {
 
 TargetTime time_to_target(std::span<const double> seconds, std::span<const double> errors, double target);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 
 #include "stats/special_functions.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -115,4 +115,4 @@ double f_upper(double f, double numerator_freedom, double denominator_freedom) {
     return regularized_beta(denominator_freedom / 2, numerator_freedom / 2, denominator_freedom / sum, scaled / sum);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -2,7 +2,7 @@
 // probability of a larger value, computed without cancellation. NaN arguments give NaN.
 #pragma once
 
-namespace diptych {
+namespace diptych::core {
 
 double normal_cdf(double z);
 double normal_upper(double z);
@@ -21,4 +21,4 @@ double chi_square_quantile(double p, double freedom);
 
 double f_upper(double f, double numerator_freedom, double denominator_freedom);
 
-}  // namespace diptych
+}  // namespace diptych::core

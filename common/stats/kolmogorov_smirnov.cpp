@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -46,4 +46,4 @@ KolmogorovSmirnov kolmogorov_smirnov_uniform(std::vector<double> values) {
     return result;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 
 struct KolmogorovSmirnov {
     double distance = 0;  // largest between the empirical and the uniform distribution functions
@@ -13,4 +13,4 @@ struct KolmogorovSmirnov {
 /// p is good to about 1 % from n = 20 on.
 KolmogorovSmirnov kolmogorov_smirnov_uniform(std::vector<double> values);
 
-}  // namespace diptych
+}  // namespace diptych::core

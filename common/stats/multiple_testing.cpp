@@ -6,7 +6,7 @@
 
 #include "stats/distributions.h"
 
-namespace diptych {
+namespace diptych::core {
 
 double fisher_statistic(std::span<const double> p) {
     double sum = 0;
@@ -52,4 +52,4 @@ double sidak_threshold(double alpha, double n) {
     return -std::expm1(std::log1p(-alpha) / n);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 
 /// -2 sum(ln p) (Fisher 1932). A p below 1e-300 counts as 1e-300, so that the sum stays finite.
 double fisher_statistic(std::span<const double> p);
@@ -31,4 +31,4 @@ double sidak_adjusted(double least_p, double n);
 /// The p at which each of n independent tests must reject for a family-wise alpha.
 double sidak_threshold(double alpha, double n);
 
-}  // namespace diptych
+}  // namespace diptych::core

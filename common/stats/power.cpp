@@ -4,7 +4,7 @@
 
 #include "stats/distributions.h"
 
-namespace diptych {
+namespace diptych::core {
 
 double samples_per_side(double alpha, double power, double cv, double delta) {
     const double z = normal_quantile(1 - alpha / 2) + normal_quantile(power);
@@ -18,4 +18,4 @@ double minimum_detectable(double standard_error, double freedom, double alpha, d
     return (student_quantile(1 - alpha / 2, freedom) + student_quantile(power, freedom)) * standard_error;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -104,4 +104,4 @@ double regularized_beta(double a, double b, double x, double one_minus_x) {
     return x < (a + 1) / (a + b + 2) ? beta_fraction(a, b, x, one_minus_x) : 1 - beta_fraction(b, a, one_minus_x, x);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -1,7 +1,7 @@
 // The regularised incomplete gamma and beta functions, on which most distributions stand.
 #pragma once
 
-namespace diptych {
+namespace diptych::core {
 
 /// P(a, x), lower; a > 0, x >= 0. Series (DLMF 8.11.4) below x = a + 1, one minus Q above. The relative error grows
 /// with a, as the terms of the exponent do: 1e-13 at 100, 1e-11 at 1e4.
@@ -15,4 +15,4 @@ double regularized_gamma_upper(double a, double x);
 double regularized_beta(double a, double b, double x);
 double regularized_beta(double a, double b, double x, double one_minus_x);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -67,4 +67,4 @@ bool invert(const Matrix3& m, int rank, Matrix3& inverse) {
     return determinant > 1e-12 * m[0][0] * m[1][1] * m[2][2];
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace diptych {
+namespace diptych::core {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
@@ -18,4 +18,4 @@ Eigen3 symmetric_eigen(Matrix3 matrix);
 /// The inverse of the leading `rank` rows and columns; false where it is singular.
 bool invert(const Matrix3& matrix, int rank, Matrix3& inverse);
 
-}  // namespace diptych
+}  // namespace diptych::core

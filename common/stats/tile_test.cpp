@@ -10,7 +10,7 @@
 #include "stats/multiple_testing.h"
 #include "stats/welch.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -302,4 +302,4 @@ TileComparison compare_common_runs(std::span<const RunMeans> a, std::span<const 
     return result;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

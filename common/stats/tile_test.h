@@ -8,7 +8,7 @@
 
 #include "stats/channel_test.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// One run: a render with a seed of its own. Samples within a run may depend on one another (a Sobol' set does); runs
 /// do not, so the run's mean is the unit of all that follows, and there is no trimming of it. Linear radiance.
@@ -90,4 +90,4 @@ TileComparison compare_runs(std::span<const RunMeans> a, std::span<const RunMean
 TileComparison compare_common_runs(std::span<const RunMeans> a, std::span<const RunMeans> b,
                                    const TileTestOptions& options = {});
 
-}  // namespace diptych
+}  // namespace diptych::core

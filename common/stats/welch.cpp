@@ -5,7 +5,7 @@
 
 #include "stats/distributions.h"
 
-namespace diptych {
+namespace diptych::core {
 
 SampleSummary summarize(std::span<const double> values) {
     SampleSummary summary;
@@ -49,4 +49,4 @@ double confidence_half_width(const WelchTest& test, double confidence) {
     return test.standard_error == 0 ? 0 : test.standard_error * student_quantile((1 + confidence) / 2, test.freedom);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

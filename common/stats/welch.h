@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace diptych {
+namespace diptych::core {
 
 /// What independent draws say. `variance` is the unbiased sample variance, 0 below two draws.
 struct SampleSummary {
@@ -30,4 +30,4 @@ WelchTest welch_test(std::span<const double> a, std::span<const double> b);
 /// Half the width of the confidence interval of the difference.
 double confidence_half_width(const WelchTest& test, double confidence = 0.95);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -9,7 +9,7 @@
 #include "leaves.h"
 #include "pack/packed_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// One ray as an integrator traced it.
 struct TracedRay {
@@ -142,4 +142,4 @@ struct CpuKernel {
 };
 
 }  // namespace shared
-}  // namespace diptych
+}  // namespace diptych::core

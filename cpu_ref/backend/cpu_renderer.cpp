@@ -11,7 +11,7 @@
 #include "clock.h"
 #include "parallel.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr int tile_size = 16;
@@ -97,10 +97,10 @@ public:
                                            std::optional<std::uint32_t> seed) override {
         shared::RenderConstants constants = constants_;
         constants.seed = seed.value_or(constants.seed);
-        return run_in(arena_, [&] { return diptych::record_paths(*packed_, constants, *scene_, queries); });
+        return run_in(arena_, [&] { return core::record_paths(*packed_, constants, *scene_, queries); });
     }
     std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery> queries) override {
-        return run_in(arena_, [&] { return diptych::summarize_paths(*packed_, constants_, *scene_, queries); });
+        return run_in(arena_, [&] { return core::summarize_paths(*packed_, constants_, *scene_, queries); });
     }
 
 private:
@@ -310,4 +310,4 @@ std::string cpu_name() {
     return "CPU";
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include "pack/packed_scene.h"
 #include "render/renderer.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Keeps a reference to the packed scene, which must outlive it. `threads` 0 means all. Images depend on neither
 /// threads nor tiles: every pixel sums its own samples, in their order.
@@ -15,4 +15,4 @@ std::unique_ptr<Renderer> make_cpu_renderer(const PackedScene& packed, int threa
 /// The processor's own name, or "CPU".
 std::string cpu_name();
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include "backend/cpu_kernel.h"
 #include "backend/triangle_lanes.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// One sample each of neighbouring pixels. Every step is done for all paths before the next one, so that points on
 /// emitters come from vector code and one path's work fills the time that another's waits. A path depends on nothing
@@ -103,4 +103,4 @@ private:
     int alive_count_ = 0;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

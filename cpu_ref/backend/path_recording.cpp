@@ -5,7 +5,7 @@
 #include "backend/cpu_kernel.h"
 #include "parallel.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Queries = std::span<const shared::PathQuery>;
@@ -50,4 +50,4 @@ std::vector<shared::PathSummary> summarize_paths(const PackedScene& packed, cons
     return summaries;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

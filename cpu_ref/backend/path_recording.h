@@ -8,7 +8,7 @@
 #include "pack/packed_scene.h"
 #include "render/recorded_path.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Run within the arena that is to do the work. `constants` stand in for the pack's own.
 std::vector<RecordedPath> record_paths(const PackedScene& packed, const shared::RenderConstants& constants,
@@ -16,4 +16,4 @@ std::vector<RecordedPath> record_paths(const PackedScene& packed, const shared::
 std::vector<shared::PathSummary> summarize_paths(const PackedScene& packed, const shared::RenderConstants& constants,
                                                  const EmbreeScene& scene, std::span<const shared::PathQuery> queries);
 
-}  // namespace diptych
+}  // namespace diptych::core

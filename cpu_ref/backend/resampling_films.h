@@ -7,7 +7,7 @@
 
 #include "render/resampling_schedule.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Sets of whole films, one after another; empty for integrators that do not resample.
 struct ResamplingFilms {
@@ -31,4 +31,4 @@ struct ResamplingFilms {
     }
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 
 #include "backend/cpu_kernel.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// What a stage does at a pixel; nothing where that is to shade, whose sample is the caller's to take.
 template <class Kernel>
@@ -38,4 +38,4 @@ void run_stage(Kernel& kernel, const ResamplingStep& step, shared::uvec2 pixel) 
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

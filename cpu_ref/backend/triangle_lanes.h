@@ -3,7 +3,7 @@
 
 #include "leaves.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// sample_emitter_point's arguments and results, each an array over lanes: the shared code in a loop without branches,
 /// which compilers turn into vectors. What one triangle costs, a vector of them costs too.
@@ -55,4 +55,4 @@ private:
     Lane pdf{};
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

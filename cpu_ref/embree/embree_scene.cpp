@@ -11,7 +11,7 @@
 #include "pack/emitter_corners.h"
 #include "pack/packed_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace shared {
 namespace {
 
@@ -334,4 +334,4 @@ bool EmbreeScene::occluded(RTCScene root, const glm::vec3& origin, const glm::ve
     return ray.tfar < 0;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

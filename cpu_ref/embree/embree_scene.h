@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 
 struct PackedScene;
 
@@ -107,4 +107,4 @@ private:
 /// Embree's version as text, such as "3.13.5".
 std::string embree_version();
 
-}  // namespace diptych
+}  // namespace diptych::core

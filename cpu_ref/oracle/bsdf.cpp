@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -150,4 +150,4 @@ dvec3 with_cosine(const dvec3& n, const dvec3& axis, double c) {
     return size > 0 ? c * axis + std::sqrt(1 - c * c) / size * across : axis;
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

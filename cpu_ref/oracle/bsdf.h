@@ -5,7 +5,7 @@
 
 #include "oracle/random.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 using glm::dvec2;
 using glm::dvec3;
@@ -73,4 +73,4 @@ inline double largest(const dvec3& v) {
     return glm::max(v.x, glm::max(v.y, v.z));
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -4,7 +4,7 @@
 
 #include "oracle/bsdf.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 Ray camera_ray(const World& world, const Camera& camera, double aspect, double x, double y, Random& random) {
     const double half = camera.orthographic ? 0.5 * camera.orthographic_height : std::tan(0.5 * camera.vertical_fov);
@@ -24,4 +24,4 @@ Ray camera_ray(const World& world, const Camera& camera, double aspect, double x
     return ray;
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

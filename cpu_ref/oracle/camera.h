@@ -3,11 +3,11 @@
 
 #include "oracle/traversal.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 class Random;
 
 /// A ray through film point (x, y) in [0, 1]^2, y down, from a uniform point of the lens.
 Ray camera_ray(const World& world, const Camera& camera, double aspect, double x, double y, Random& random);
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

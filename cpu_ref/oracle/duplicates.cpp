@@ -3,7 +3,7 @@
 #include <functional>
 #include <map>
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 Duplicates::Duplicates(const Scene& scene) : scene_(scene) {
     std::map<std::array<double, 16>, std::size_t> standing;
@@ -45,4 +45,4 @@ std::size_t Duplicates::Hash::operator()(const std::array<double, 9>& numbers) c
     return mixed;
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

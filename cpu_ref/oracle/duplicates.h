@@ -9,7 +9,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 /// Asked of every triangle in the file's order: instances, primitives, triangles.
 class Duplicates {
@@ -31,4 +31,4 @@ private:
     std::unordered_map<std::size_t, Met> met_;  // by place
 };
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -6,7 +6,7 @@
 #include "oracle/random.h"
 #include "oracle/surface.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -40,4 +40,4 @@ Emitters::Point Emitters::sample(Random& random) const {
     return {triangles_[index], dvec2(root * (1 - share), root * share), density(triangles_[index])};
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -5,7 +5,7 @@
 
 #include "oracle/world.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 class Random;
 
@@ -41,4 +41,4 @@ private:
     std::vector<double> weight_up_to_;
 };
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -133,4 +133,4 @@ double density(const Facets& f, const Bsdf& bsdf, const dvec3& o, const dvec3& i
     return share * off_facet(o) + (share < 1 ? (1 - share) * off_facet(flip_across(o, f.t)) : 0);
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -4,7 +4,7 @@
 
 #include "oracle/bsdf.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 /// The microsurface at a point: flat with normal g, or a facet p with a mirror t across g.
 struct Facets {
@@ -37,4 +37,4 @@ Scattered sample(const Facets& facets, const Bsdf& bsdf, const dvec3& o, bool on
 /// material draw left out.
 double density(const Facets& facets, const Bsdf& bsdf, const dvec3& o, const dvec3& i);
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -31,4 +31,4 @@ PunctualSample sample_punctual(const World& world, const PunctualLight& light, c
     return {direction, distance, intensity * (factor / (distance * distance))};
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -3,7 +3,7 @@
 
 #include "oracle/world.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 /// A punctual light seen from a point: irradiance across the direction to it, and how far it is.
 struct PunctualSample {
@@ -14,4 +14,4 @@ struct PunctualSample {
 
 PunctualSample sample_punctual(const World& world, const PunctualLight& light, const dvec3& position);
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -4,7 +4,7 @@
 
 #include "oracle/facets.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -96,4 +96,4 @@ double density(const Mapped& m, const Bsdf& bsdf, const dvec3& o, const dvec3& i
     return sum;
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

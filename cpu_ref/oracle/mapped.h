@@ -4,7 +4,7 @@
 
 #include "oracle/bsdf.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 /// A point whose normal a map gives, seen from one direction.
 struct Mapped {
@@ -25,4 +25,4 @@ Scattered sample(const Mapped& mapped, const Bsdf& bsdf, const dvec3& o, bool on
 /// Of the draws of `sample` that leave toward i, a steradian, both terms together; what mirrors draw left out.
 double density(const Mapped& mapped, const Bsdf& bsdf, const dvec3& o, const dvec3& i);
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

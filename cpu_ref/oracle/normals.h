@@ -6,7 +6,7 @@
 #include "oracle/facets.h"
 #include "oracle/mapped.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 /// The models of normal maps of docs/integrand.md.
 enum class NormalMaps {
@@ -43,4 +43,4 @@ inline double density(const Normals& normals, const Bsdf& bsdf, const dvec3& o, 
     return std::visit([&](const auto& kind) { return density(kind, bsdf, o, i); }, normals);
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

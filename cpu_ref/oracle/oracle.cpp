@@ -10,7 +10,7 @@
 #include "oracle/camera.h"
 #include "parallel.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -143,4 +143,4 @@ std::uint64_t Oracle::acceleration_bytes() const {
     return state_->traversal.bytes();
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -9,7 +9,7 @@
 
 #include "oracle/path.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct OracleSettings {
     int width = 64;
@@ -73,4 +73,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -231,4 +231,4 @@ PathResult trace_path(const Paths& paths, Ray ray, Random& random, std::span<dve
     return PathTracer(paths, random, by_depth).trace(ray);
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

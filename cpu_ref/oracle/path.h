@@ -8,7 +8,7 @@
 #include "oracle/sky.h"
 #include "oracle/surface.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 /// How a path finds light. Punctual lights, which no ray meets, are summed or picked uniformly in every mode.
 enum class Mode {
@@ -53,4 +53,4 @@ struct PathResult {
 /// after so many scatterings.
 PathResult trace_path(const Paths& paths, Ray ray, Random& random, std::span<dvec3> by_depth);
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 /// Finalizer of SplitMix64 (Steele, Lea and Flood 2014): a bijection that scatters neighbours.
 inline std::uint64_t scatter_bits(std::uint64_t x) {
@@ -29,4 +29,4 @@ private:
     std::mt19937_64 engine_;
 };
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

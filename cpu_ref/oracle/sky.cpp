@@ -7,7 +7,7 @@
 #include "oracle/random.h"
 #include "oracle/world.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -105,4 +105,4 @@ double SkyMap::density(const dvec3& direction) const {
     return there * double(weight_up_to_.size()) / (weight_up_to_.back() * 2 * pi * pi * sine);
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 using glm::dvec2;
 using glm::dvec3;
@@ -40,4 +40,4 @@ private:
     std::vector<double> weight_up_to_;  // by texel; empty where there is nothing to draw from
 };
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -2,7 +2,7 @@
 
 #include "oracle/texture.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -122,4 +122,4 @@ Surface make_surface(const World& world, Distribution model, NormalMaps maps, co
     return surface;
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

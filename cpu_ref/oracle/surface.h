@@ -7,7 +7,7 @@
 #include "oracle/traversal.h"
 #include "oracle/world.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 /// A hit seen from `o`.
 struct Surface {
@@ -33,4 +33,4 @@ double coverage(const World& world, const Triangle& triangle, dvec2 barycentrics
 /// Whether any point of the material could emit.
 bool emits(const Material& material);
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

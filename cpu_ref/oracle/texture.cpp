@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -79,4 +79,4 @@ dvec4 sample_texture(const Scene& scene, const TextureSlot& slot, const Triangle
                     fy);
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -3,7 +3,7 @@
 
 #include "oracle/world.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 enum class Encoding { linear, srgb };
 
@@ -14,4 +14,4 @@ double decode_srgb(double encoded);
 dvec4 sample_texture(const Scene& scene, const TextureSlot& slot, const Triangle& triangle, dvec2 barycentrics,
                      Encoding encoding, const dvec4& missing = dvec4(1));
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -13,7 +13,7 @@
 #include "oracle/random.h"
 #include "oracle/surface.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -245,4 +245,4 @@ bool Traversal::any(const Ray& ray) const {
     return query.tfar < 0;
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -7,7 +7,7 @@
 
 #include "oracle/world.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 inline constexpr std::size_t no_triangle = ~std::size_t{0};
 
@@ -57,4 +57,4 @@ private:
     std::unique_ptr<Structures> structures_;
 };
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -4,7 +4,7 @@
 
 #include "oracle/duplicates.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 namespace {
 
@@ -92,4 +92,4 @@ World make_world(const Scene& scene) {
     return world;
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych::oracle {
+namespace diptych::core::oracle {
 
 using glm::dvec2;
 using glm::dvec3;
@@ -71,4 +71,4 @@ T bilinear(const T& top_left, const T& top_right, const T& bottom_left, const T&
     return top + fy * (bottom - top);
 }
 
-}  // namespace diptych::oracle
+}  // namespace diptych::core::oracle

@@ -7,7 +7,7 @@
 #include "clock.h"
 #include "error.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -151,4 +151,4 @@ std::unique_ptr<Renderer> make_oracle_renderer(const Scene& scene, const RenderS
     return std::make_unique<OracleRenderer>(scene, settings, mode, threads);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

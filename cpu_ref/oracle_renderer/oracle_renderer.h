@@ -8,7 +8,7 @@
 #include "render/renderer.h"
 #include "settings/settings.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// "mis", "bsdf", "hemisphere" or "area". Throws Error, listing them, where `name` is none.
 oracle::Mode oracle_mode_from_name(const std::string& name);
@@ -19,4 +19,4 @@ oracle::Mode oracle_mode_from_name(const std::string& name);
 std::unique_ptr<Renderer> make_oracle_renderer(const Scene& scene, const RenderSettings& settings, oracle::Mode mode,
                                                int threads);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -17,12 +17,12 @@
 #define INOUT(T) T&
 #define LOCAL(T) const T&
 #define PRECISE
-#define SHARED_BEGIN namespace diptych::shared {
+#define SHARED_BEGIN namespace diptych::core::shared {
 #define SHARED_END }
 #define ASSERT_SIZE(T, bytes) static_assert(sizeof(T) == (bytes))
 #define ASSERT_OFFSET(T, field, bytes) static_assert(offsetof(T, field) == (bytes))
 
-namespace diptych::shared {
+namespace diptych::core::shared {
 using glm::bvec3;
 using glm::clamp;
 using glm::cross;
@@ -60,7 +60,7 @@ inline uint bitfieldReverse(uint x) {
     return ((x & 0x55555555U) << 1U) | ((x >> 1U) & 0x55555555U);
 }
 inline vec3 xyz(const vec4& v) { return vec3(v); }
-}  // namespace diptych::shared
+}  // namespace diptych::core::shared
 
 #elif defined(VULKAN)
 

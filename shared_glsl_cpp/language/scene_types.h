@@ -37,7 +37,7 @@ CONST uint MATERIAL_DOUBLE_SIDED = 4u;  // emits from both sides
 CONST uint MATERIAL_UNLIT = 8u;         // black but for its emission
 CONST uint MATERIAL_EMISSIVE = 16u;     // its emission can be non-zero somewhere
 
-/// glTF 2.0 metallic-roughness; see `diptych::Material`. Slots index texture_slots, NONE where there is no texture.
+/// glTF 2.0 metallic-roughness; see `Material` of common. Slots index texture_slots, NONE where there is no texture.
 struct Material {
     vec4 base_color;
     vec3 emission;  // radiance, W/(sr m^2)

@@ -7,8 +7,8 @@
 #include "image/layered_image.h"
 #include "process.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -15,8 +15,8 @@
 #include "process.h"
 #include "skipping.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

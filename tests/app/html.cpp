@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::string html_script(const std::string& page, const std::string& id) {
     return begin == std::string::npos ? "" : page.substr(begin, page.find("</script>", begin) - begin);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -7,7 +7,7 @@
 #include "process.h"
 #include "skipping.h"
 
-using namespace diptych::tests;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include "process.h"
 #include "skipping.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 TEST_CASE("render warns of samples that it dropped, counts them, and writes what is left", "[app]") {
     const std::string backend = GENERATE("cpu", "vulkan");

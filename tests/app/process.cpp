@@ -18,7 +18,7 @@
 
 #include "skipping.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -210,4 +210,4 @@ void check_refusal(const ProcessResult& result, int exit_code, const std::vector
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -8,7 +8,7 @@
 
 #include "catch.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 struct ProcessResult {
     int exit_code = -1;  // 128 + the signal where one killed it
@@ -83,12 +83,12 @@ double seconds_taken(double seconds, const std::function<ProcessResult()>& run);
 /// The refusal that a user is owed: exit code, nothing on stdout, one line on stderr that holds every one of the parts.
 void check_refusal(const ProcessResult& result, int exit_code, const std::vector<std::string>& parts);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests
 
 /// Leaves the test case where the program has no device.
 #define NEED_PROGRAM_WITH_VULKAN()                                                                                     \
     do {                                                                                                               \
-        if (!diptych::tests::program_has_vulkan()) {                                                                   \
+        if (!diptych::core::tests::program_has_vulkan()) {                                                             \
             SKIP_TEST("no Vulkan device with ray tracing, or built without Vulkan");                                   \
         }                                                                                                              \
     } while (false)

@@ -4,8 +4,8 @@
 #include "process.h"
 #include "tev_receiver.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

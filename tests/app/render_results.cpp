@@ -10,8 +10,8 @@
 #include "generate/shapes.h"
 #include "gltf/write.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

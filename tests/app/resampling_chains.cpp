@@ -15,8 +15,8 @@
 #include "renderer/vulkan_renderer.h"
 #endif
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

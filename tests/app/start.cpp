@@ -23,7 +23,7 @@
 #define SANITIZED 0
 #endif
 
-using namespace diptych::tests;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -173,4 +173,4 @@ void TevReceiver::take(const std::vector<char>& packet) {
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 struct ReceivedImage {
     int width = 0;
@@ -43,4 +43,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -2,7 +2,7 @@
 
 #include "process.h"
 
-using namespace diptych::tests;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "process.h"
 
-using namespace diptych::tests;
+using namespace diptych::core::tests;
 
 TEST_CASE("a command under validation ends with 1 if the layer had anything to say, and says how much", "[app]") {
     if (!program_has_validation()) {

@@ -5,8 +5,8 @@
 #include "image/image_file.h"
 #include "process.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -11,8 +11,8 @@
 #include "random_scene/scene_files.h"
 #include "render/film.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

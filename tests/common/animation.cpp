@@ -5,7 +5,7 @@
 
 #include "catch.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

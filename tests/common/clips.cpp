@@ -9,8 +9,8 @@
 #include "gltf/import.h"
 #include "pose/pose.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

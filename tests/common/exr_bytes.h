@@ -11,7 +11,7 @@
 
 #include "image/pixel_window.h"
 
-namespace diptych::image_tests {
+namespace diptych::core::image_tests {
 
 struct ExrPart {
     std::string name;                                    // of a part in a file of several
@@ -115,4 +115,4 @@ inline ExrPart constant_part(const PixelWindow& data, const std::map<std::string
     return part;
 }
 
-}  // namespace diptych::image_tests
+}  // namespace diptych::core::image_tests

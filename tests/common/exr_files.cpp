@@ -14,8 +14,8 @@
 #include "image_fixtures.h"
 #include "scene/environment_load.h"
 
-using namespace diptych;
-using namespace diptych::image_tests;
+using namespace diptych::core;
+using namespace diptych::core::image_tests;
 
 namespace {
 

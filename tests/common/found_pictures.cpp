@@ -7,7 +7,7 @@
 #include "image/layered_image.h"
 #include "scene/environment_load.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-using namespace diptych;
-using namespace diptych::generate_tests;
+using namespace diptych::core;
+using namespace diptych::core::generate_tests;
 
 namespace {
 

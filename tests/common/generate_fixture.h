@@ -10,7 +10,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace diptych::generate_tests {
+namespace diptych::core::generate_tests {
 
 struct TemporaryFolder {
     std::filesystem::path path;
@@ -62,4 +62,4 @@ inline const Instance& find_instance(const Scene& scene, const std::string& name
     throw std::runtime_error("no instance is called " + name);
 }
 
-}  // namespace diptych::generate_tests
+}  // namespace diptych::core::generate_tests

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace diptych;
-using namespace diptych::generate_tests;
+using namespace diptych::core;
+using namespace diptych::core::generate_tests;
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-using namespace diptych;
-using namespace diptych::generate_tests;
+using namespace diptych::core;
+using namespace diptych::core::generate_tests;
 
 namespace {
 

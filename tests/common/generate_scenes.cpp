@@ -12,8 +12,8 @@
 #include <map>
 #include <sys/wait.h>
 
-using namespace diptych;
-using namespace diptych::generate_tests;
+using namespace diptych::core;
+using namespace diptych::core::generate_tests;
 
 namespace {
 

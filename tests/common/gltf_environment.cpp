@@ -7,8 +7,8 @@
 #include "gltf_fixture.h"
 #include "scene/environment_load.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

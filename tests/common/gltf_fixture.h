@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 class TemporaryFolder {
 public:
@@ -125,4 +125,4 @@ inline std::filesystem::path asset_folder() {
                             : std::filesystem::path(DIPTYCH_SOURCE_DIR) / "../shared/assets";
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -8,8 +8,8 @@
 #include "scene/default_camera.h"
 #include "gltf/import.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include "image/figures.h"
 #include "image_fixtures.h"
 
-using namespace diptych;
-using namespace diptych::image_tests;
+using namespace diptych::core;
+using namespace diptych::core::image_tests;
 
 namespace {
 

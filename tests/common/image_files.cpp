@@ -11,8 +11,8 @@
 #include "image/layered_image.h"
 #include "image_fixtures.h"
 
-using namespace diptych;
-using namespace diptych::image_tests;
+using namespace diptych::core;
+using namespace diptych::core::image_tests;
 
 namespace {
 

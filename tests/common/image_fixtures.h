@@ -14,7 +14,7 @@
 #include "error.h"
 #include "image/image.h"
 
-namespace diptych::image_tests {
+namespace diptych::core::image_tests {
 
 #if DIPTYCH_CATCH_VERSION >= 3
 using Catch::Approx;
@@ -74,4 +74,4 @@ inline bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-}  // namespace diptych::image_tests
+}  // namespace diptych::core::image_tests

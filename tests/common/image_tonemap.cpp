@@ -5,8 +5,8 @@
 #include "image/tonemap_image.h"
 #include "image_fixtures.h"
 
-using namespace diptych;
-using namespace diptych::image_tests;
+using namespace diptych::core;
+using namespace diptych::core::image_tests;
 
 TEST_CASE("Tone maps have names, and an unknown one lists them", "[image]") {
     for (const char* name : {"none", "exponential", "uncharted2", "aces", "pbr-neutral"})

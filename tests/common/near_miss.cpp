@@ -4,8 +4,8 @@
 #include "catch.h"
 #include "gltf_fixture.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 TEST_CASE("the nearest word is suggested, and none that is far", "[near-miss]") {
     CHECK(nearest_word("wlak", {"idle", "walk", "run"}) == "walk");

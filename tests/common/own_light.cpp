@@ -12,8 +12,8 @@
 #include "gltf/import.h"
 #include "scene/own_light.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

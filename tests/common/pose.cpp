@@ -9,8 +9,8 @@
 #include "pose/clips.h"
 #include "gltf/import.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "render/film.h"
 #include "render/film_statistics.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include "render/metadata.h"
 #include "settings/names.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "render/paired_test.h"
 #include "render/recorded_path.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "render/progressive.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

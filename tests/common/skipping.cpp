@@ -3,7 +3,7 @@
 
 #include "catch.h"
 
-using diptych::tests::TestRun;
+using diptych::core::tests::TestRun;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "stats/bias_squared.h"
 #include "stats/convergence.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "stats/power.h"
 #include "stats/special_functions.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

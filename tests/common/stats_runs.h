@@ -8,7 +8,7 @@
 
 #include "stats/tile_test.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// One tile's mean in one run.
 using TileNoise = std::function<Channels(std::mt19937_64&)>;
@@ -97,4 +97,4 @@ inline TileNoise scaled(const TileNoise& noise, double factor) {
     };
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -8,8 +8,8 @@
 #include "stats/kolmogorov_smirnov.h"
 #include "stats_runs.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "stats/symmetric_matrix.h"
 #include "stats/welch.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "render/film_tiles.h"
 #include "stats/bias_verdict.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "generate/shapes.h"
 #include "scene/surface_points.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

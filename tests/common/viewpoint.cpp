@@ -9,7 +9,7 @@
 #include "pose/pose.h"
 #include "scene/sun.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include "catch.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 TEST_CASE("warnings of one kind are one line with the first object and how many more", "[warnings]") {
     Warnings warnings;

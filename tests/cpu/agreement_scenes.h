@@ -6,7 +6,7 @@
 
 #include "render_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// Checks, opaque and bright beside nearly clear and dark: `size` texels a side.
 inline int add_checker_texture(Scene& scene, int size, Filter filter) {
@@ -135,4 +135,4 @@ inline std::vector<std::pair<std::string, Scene>> agreement_scenes() {
     return out;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -7,8 +7,8 @@
 #include "stats/bias_verdict.h"
 #include "stats/kolmogorov_smirnov.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Samples that are no radiance, made in the integrator, are dropped and counted.
 #include "broken_light.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 TEST_CASE("Light samples that are NaN, infinite or negative are dropped and counted, and the rest is kept") {
     constexpr std::uint32_t spp = 8;

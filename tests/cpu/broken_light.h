@@ -4,7 +4,7 @@
 
 #include "render_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// 32x24 pixels, direct light only. Rays that hit the light see the material, which is whole.
 inline PackedScene packed_with_broken_light(Integrator integrator, std::uint32_t max_depth, float radiance) {
@@ -43,4 +43,4 @@ inline void check_drops(const Film& broken, const Film& dark, std::uint32_t spp)
     CHECK(unlike == 0);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

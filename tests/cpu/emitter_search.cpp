@@ -7,7 +7,7 @@
 #include "generate/generate.h"
 #include "pose/pose.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 struct Found {
@@ -93,4 +93,4 @@ TEST_CASE("Settings that sample no material for light points build no structure 
     CHECK(for_light_points > bytes());
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -4,8 +4,8 @@
 #include "film/film_pixel.h"
 #include "render_fixture.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 TEST_CASE("The film drops and counts what is no radiance") {
     const float nan = std::numeric_limits<float>::quiet_NaN();

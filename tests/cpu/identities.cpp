@@ -1,8 +1,8 @@
 // What must be equal to the bit: thread counts, slices, generic and specialised kernels; and what depths mean.
 #include "agreement_scenes.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

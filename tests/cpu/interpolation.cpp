@@ -5,8 +5,8 @@
 #include "backend/cpu_kernel.h"
 #include "render_fixture.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

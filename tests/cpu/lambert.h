@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 using Polygon = std::vector<glm::dvec3>;
 
@@ -59,4 +59,4 @@ inline double convex_irradiance(const Primitive& mesh, const glm::dvec3& shift, 
     return sum;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -17,7 +17,7 @@
 #include "generate/shapes.h"
 #include "gltf/import.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 inline constexpr std::array<Integrator, 3> integrators = {Integrator::brdf, Integrator::direct, Integrator::path};
 inline constexpr std::array<BrdfModel, 2> brdf_models = {BrdfModel::ggx, BrdfModel::blinn_phong};
@@ -207,4 +207,4 @@ inline Environment sunny_sky(int width, int height, float sun) {
     return e;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

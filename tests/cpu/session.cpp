@@ -8,8 +8,8 @@
 #include "render/progressive.h"
 #include "render_fixture.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

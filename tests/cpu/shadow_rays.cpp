@@ -4,8 +4,8 @@
 #include "lambert.h"
 #include "render_fixture.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "render_fixture.h"
 #include "film/tonemap.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace shared {
 namespace {
 
@@ -92,10 +92,10 @@ TextureImage random_image(int width, int height, std::mt19937& random) {
 
 }  // namespace
 }  // namespace tests
-}  // namespace diptych
+}  // namespace diptych::core
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 TEST_CASE("Lookups match double in every wrap mode, filter, size and encoding") {
     std::mt19937 random(3);

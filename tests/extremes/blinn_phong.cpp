@@ -1,9 +1,9 @@
 #include "extremes.h"
 
 TEST_CASE("Extremes: Blinn-Phong") {
-    diptych::tests::check_row("Blinn-Phong");
+    diptych::core::tests::check_row("Blinn-Phong");
 }
 
 TEST_CASE("Extremes in full: Blinn-Phong", "[nightly]") {
-    diptych::tests::check_row_in_full("Blinn-Phong");
+    diptych::core::tests::check_row_in_full("Blinn-Phong");
 }

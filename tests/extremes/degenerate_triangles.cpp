@@ -1,9 +1,9 @@
 #include "extremes.h"
 
 TEST_CASE("Extremes: degenerate triangles") {
-    diptych::tests::check_row("degenerate triangles");
+    diptych::core::tests::check_row("degenerate triangles");
 }
 
 TEST_CASE("Extremes in full: degenerate triangles", "[nightly]") {
-    diptych::tests::check_row_in_full("degenerate triangles");
+    diptych::core::tests::check_row_in_full("degenerate triangles");
 }

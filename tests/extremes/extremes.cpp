@@ -7,7 +7,7 @@
 #include "vulkan_device.h"
 #endif
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -55,11 +55,11 @@ void check_row_in_full(const std::string& row) {
     check(row, stability::Effort::full);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests
 
 TEST_CASE("The cases name the rows of the table of extremes") {
     std::set<std::string> rows;
-    for (const diptych::stability::Case& c : diptych::stability::all_cases()) {
+    for (const diptych::core::stability::Case& c : diptych::core::stability::all_cases()) {
         rows.insert(c.row);
     }
     CHECK(rows.size() == 18);

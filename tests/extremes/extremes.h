@@ -6,10 +6,10 @@
 #include "catch.h"
 #include "stability_cases.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// Every case of the row on both backends, at few points of its range; or at all of them.
 void check_row(const std::string& row);
 void check_row_in_full(const std::string& row);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -1,9 +1,9 @@
 #include "extremes.h"
 
 TEST_CASE("Extremes: GGX D") {
-    diptych::tests::check_row("GGX D");
+    diptych::core::tests::check_row("GGX D");
 }
 
 TEST_CASE("Extremes in full: GGX D", "[nightly]") {
-    diptych::tests::check_row_in_full("GGX D");
+    diptych::core::tests::check_row_in_full("GGX D");
 }

@@ -1,9 +1,9 @@
 #include "extremes.h"
 
 TEST_CASE("Extremes: reservoirs") {
-    diptych::tests::check_row("reservoirs");
+    diptych::core::tests::check_row("reservoirs");
 }
 
 TEST_CASE("Extremes in full: reservoirs", "[nightly]") {
-    diptych::tests::check_row_in_full("reservoirs");
+    diptych::core::tests::check_row_in_full("reservoirs");
 }

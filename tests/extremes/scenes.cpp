@@ -13,7 +13,7 @@
 #include "vulkan_device.h"
 #endif
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -106,4 +106,4 @@ TEST_CASE("A broken mesh is cleaned, and what was dropped is counted") {
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

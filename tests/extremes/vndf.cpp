@@ -1,9 +1,9 @@
 #include "extremes.h"
 
 TEST_CASE("Extremes: VNDF") {
-    diptych::tests::check_row("VNDF");
+    diptych::core::tests::check_row("VNDF");
 }
 
 TEST_CASE("Extremes in full: VNDF", "[nightly]") {
-    diptych::tests::check_row_in_full("VNDF");
+    diptych::core::tests::check_row_in_full("VNDF");
 }

@@ -1,9 +1,9 @@
 #include "extremes.h"
 
 TEST_CASE("Extremes: watertightness") {
-    diptych::tests::check_row("watertightness");
+    diptych::core::tests::check_row("watertightness");
 }
 
 TEST_CASE("Extremes in full: watertightness", "[nightly]") {
-    diptych::tests::check_row_in_full("watertightness");
+    diptych::core::tests::check_row_in_full("watertightness");
 }

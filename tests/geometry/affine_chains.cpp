@@ -10,8 +10,8 @@
 #include "geometry_fixture.h"
 #include "scene/default_camera.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include "pack/linear_part.h"
 #include "scene/default_camera.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

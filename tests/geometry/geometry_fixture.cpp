@@ -11,7 +11,7 @@
 #include "renderer/path_renderer.h"
 #include "render/film_statistics.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 double uniform(std::mt19937_64& random, double low, double high) {
@@ -147,4 +147,4 @@ PunctualLight sun_along(const glm::dvec3& direction) {
     return sun;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -10,7 +10,7 @@
 #include "generate/shapes.h"
 #include "vulkan_device.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 struct Films {
     Film cpu;
@@ -52,4 +52,4 @@ Material white_material();
 /// A directional light along (x, y, z) under which a white surface that faces it has radiance 1.
 PunctualLight sun_along(const glm::dvec3& direction);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -1,7 +1,7 @@
 // Any-hit shaders: a surface that is not opaque in front of one that is.
 #include "gpu_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 constexpr std::uint32_t front = 0;
@@ -76,4 +76,4 @@ TEST_CASE("Without the feature there is no any-hit shader, and alpha is not look
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -7,7 +7,7 @@
 #include "gpu_fixture.h"
 #include "device/loader.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 // Sets an environment variable for as long as it lives.
@@ -94,4 +94,4 @@ TEST_CASE("The best device is the most capable usable one, and one that lacks so
     CHECK_THROWS_AS(choose_device_index({}, ""), NoDevice);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -15,7 +15,7 @@
 #include "generate/generate.h"
 #include "film/tonemap.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 using shared::vec3;
@@ -324,4 +324,4 @@ TEST_CASE("A film in view stays what it was when its renderer goes on to another
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -14,7 +14,7 @@
 #include "test_shader_binaries.h"
 #include "memory/upload.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 VulkanOptions test_options() {
     return {.device = "", .validation = has_validation_layer()};
@@ -163,4 +163,4 @@ PackedScene random_scene(std::uint32_t seed, std::uint32_t meshes, std::uint32_t
     return packed;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

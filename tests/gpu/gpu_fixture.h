@@ -12,7 +12,7 @@
 #include "vulkan_device.h"
 #include "renderer/vulkan_renderer.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// Validation where the layer is installed, so that every test of a device is one of validation too.
 VulkanOptions test_options();
@@ -46,4 +46,4 @@ void add_instance(PackedScene& packed, std::uint32_t mesh, const glm::mat4x3& ob
 void add_geometry(PackedScene& packed, const std::vector<shared::vec3>& positions,
                   const std::vector<shared::uvec3>& triangles, std::uint32_t material);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -9,7 +9,7 @@
 #include "catch.h"
 #include "passes/pass_table.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 using Pass = std::vector<Use>;
@@ -145,4 +145,4 @@ TEST_CASE("Waves and frames have the barriers that they need, and no more") {
           "..|.|.|.|.|.|.|.|.|.");
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -10,7 +10,7 @@
 #include "renderer/path_renderer.h"
 #include "generate/shapes.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 /// random_scene, of which every fifth instance may move, or none.
@@ -206,4 +206,4 @@ TEST_CASE("Groups are built anew where their scene is packed about another origi
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

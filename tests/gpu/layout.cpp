@@ -13,7 +13,7 @@
 #include "language/scene_types.h"
 #include "shader_binaries.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 struct Layouts {
@@ -236,4 +236,4 @@ TEST_CASE("Arrays of shared structs have the stride of their size") {
     CHECK_STRIDE(PathVertexRecord);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

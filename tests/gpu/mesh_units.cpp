@@ -7,7 +7,7 @@
 #include "gpu_fixture.h"
 #include "geometry/ray_offset.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 class Random {
@@ -136,4 +136,4 @@ TEST_CASE("A mesh's unit is a power of two for which its matrix outweighs its tr
     CHECK(mesh_units(packed, {})[1] == 1);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -9,7 +9,7 @@
 #include "generate/generate.h"
 #include "pose/pose.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 RenderSettings small_settings(bool keeps_previous) {
@@ -116,4 +116,4 @@ TEST_CASE("What has no area at a moment is not there, on the device") {
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -13,7 +13,7 @@
 #include "shader_binaries.h"
 #include "spirv_accesses.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 using Touched = std::set<std::pair<Resource, Effect>>;
@@ -163,4 +163,4 @@ TEST_CASE("Barriers of the device's memory are recorded in one place alone") {
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -5,7 +5,7 @@
 
 #include "gpu_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 std::filesystem::path scratch_file() {
@@ -52,4 +52,4 @@ TEST_CASE("A pipeline cache is saved and opened again, and a folder that cannot 
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -9,7 +9,7 @@
 #include "renderer/path_renderer.h"
 #include "generate/generate.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 RenderSettings small_settings() {
@@ -211,4 +211,4 @@ TEST_CASE("A renderer refuses another scene's settings, and keeps its own, on th
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -5,7 +5,7 @@
 #include "gpu_fixture.h"
 #include "renderer/path_renderer.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 RenderSettings small_settings() {
@@ -156,4 +156,4 @@ TEST_CASE("The traversal bench traces the integrator's rays, and leaves the film
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

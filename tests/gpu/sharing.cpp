@@ -8,7 +8,7 @@
 #include "gpu_fixture.h"
 #include "renderer/path_renderer.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 RenderSettings settings_of(Integrator integrator) {
@@ -130,4 +130,4 @@ TEST_CASE("A lost device is told from other errors") {
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -6,7 +6,7 @@
 
 #include "catch.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 TEST_CASE("Slices cover every sample of every pixel once, in order, within the budget") {
     const std::uint64_t budget = GENERATE(0U, 1U, 3U, 7U, 20U, 35U, 36U, 100U, 1000000U);
@@ -90,4 +90,4 @@ TEST_CASE("The budget follows another aim at once, and grows towards it by steps
     CHECK(fresh.budget() == 2000);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -4,7 +4,7 @@
 
 #include "error.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 using Words = std::span<const std::uint32_t>;
@@ -193,4 +193,4 @@ std::map<std::string, Accesses> memory_accesses(std::span<const std::uint32_t> s
     return Reader(spirv).found;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

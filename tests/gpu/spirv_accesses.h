@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 struct Accesses {
     bool reads = false;
@@ -18,4 +18,4 @@ struct Accesses {
 /// Throws Error for a pointer into such memory that cannot be followed.
 std::map<std::string, Accesses> memory_accesses(std::span<const std::uint32_t> spirv);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

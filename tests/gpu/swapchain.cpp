@@ -7,7 +7,7 @@
 
 #include "gpu_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 bool has_headless_surfaces() {
@@ -97,4 +97,4 @@ TEST_CASE("An unknown extension of the instance is no device to show on") {
                     NoDevice);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 struct Truth {
@@ -138,4 +138,4 @@ TEST_CASE("Traced hits are those of a loop over all triangles") {
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

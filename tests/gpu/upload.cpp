@@ -6,7 +6,7 @@
 #include "gpu_fixture.h"
 #include "memory/readback.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 std::vector<std::uint32_t> numbers(std::size_t count, std::uint32_t first) {
@@ -46,4 +46,4 @@ TEST_CASE("An upload larger than the staging buffer arrives whole, among others"
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -5,7 +5,7 @@
 #include "commands/commands.h"
 #include "gpu_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 TEST_CASE("Validation reports a write that races with another, and counts it") {
     NEED_VALIDATION();
@@ -27,4 +27,4 @@ TEST_CASE("Validation reports a write that races with another, and counts it") {
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -5,7 +5,7 @@
 #include "gpu_fixture.h"
 #include "renderer/path_renderer.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 Film render_film(Renderer& renderer, std::uint32_t samples) {
@@ -63,4 +63,4 @@ TEST_CASE("Paths in flight: one a pixel, within bounds") {
     CHECK(of_ris - bytes_with(Integrator::ris, 1) == 3 * sizeof(std::uint32_t) + std::uint64_t{64} * sizeof(shared::CandidateRequest));
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

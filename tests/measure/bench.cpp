@@ -3,8 +3,8 @@
 #include "fixture.h"
 #include "measure/bench.h"
 
-using namespace diptych;
-using namespace diptych::measure_tests;
+using namespace diptych::core;
+using namespace diptych::core::measure_tests;
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include "fixture.h"
 #include "measure/converge/measurement.h"
 
-using namespace diptych;
-using namespace diptych::measure_tests;
-using diptych::generate_tests::TemporaryFolder;
+using namespace diptych::core;
+using namespace diptych::core::measure_tests;
+using diptych::core::generate_tests::TemporaryFolder;
 
 namespace {
 

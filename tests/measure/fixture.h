@@ -5,7 +5,7 @@
 #include "generate/generate.h"
 #include "measure/open_session.h"
 
-namespace diptych::measure_tests {
+namespace diptych::core::measure_tests {
 
 inline Scene cornell() {
     return generate_scene("cornell").scene;
@@ -24,4 +24,4 @@ inline Session open_on_cpu(const Scene& scene, const RenderRequest& request, boo
     });
 }
 
-}  // namespace diptych::measure_tests
+}  // namespace diptych::core::measure_tests

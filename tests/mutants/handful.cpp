@@ -10,8 +10,8 @@
 #include "../cpu/render_fixture.h"
 #include "backend/cpu_kernel.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

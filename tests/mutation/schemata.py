@@ -11,7 +11,7 @@ SWITCH = '''// Which mutant this process is: DIPTYCH_MUTATION holds its number; 
 #include <string>
 #include <unistd.h>
 
-namespace diptych::mutation {
+namespace diptych::core::mutation {
 inline bool reached[@COUNT@];
 inline void write_reached() {
     const std::string path = std::string(std::getenv("DIPTYCH_MUTATION_REACHED")) + "/" + std::to_string(::getpid());
@@ -42,7 +42,7 @@ inline bool note(int k) {
     return false;
 }
 inline bool on(int k) { return __builtin_expect(chosen == k, 0) || (__builtin_expect(chosen < 0, 0) && note(k)); }
-}  // namespace diptych::mutation
+}  // namespace diptych::core::mutation
 '''
 
 
@@ -83,7 +83,7 @@ def render(text, mutants):
             starts = []
             for number, wrong, rule in node.mutants:
                 starts.append((number, length))
-                put(f'(::diptych::mutation::on({number}) ? ({wrong}) : ')
+                put(f'(::diptych::core::mutation::on({number}) ? ({wrong}) : ')
             # A condition may be anything that converts to bool.
             put('static_cast<bool>(' if node.mutants[0][2] == 'condition' else '(')
             write(node.inside, node.begin, node.end)

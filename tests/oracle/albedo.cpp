@@ -4,7 +4,7 @@
 #include "catch.h"
 #include "oracle_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -162,4 +162,4 @@ TEST_CASE("a mirror shows the sky times its Fresnel term", "[oracle]") {
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -12,7 +12,7 @@
 #include "oracle/camera.h"
 #include "oracle_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -243,4 +243,4 @@ TEST_CASE("with rougher plates area sampling shows of veach-mis what mis shows",
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -9,7 +9,7 @@
 #include "oracle_fixture.h"
 #include "gltf/import.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -239,4 +239,4 @@ TEST_CASE("files on which normal maps and cutoffs were wrong give what their geo
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

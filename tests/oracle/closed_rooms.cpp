@@ -4,7 +4,7 @@
 #include "catch.h"
 #include "oracle_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -123,4 +123,4 @@ TEST_CASE("an integrating sphere of two halves mixes by area at each bounce", "[
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

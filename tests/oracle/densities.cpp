@@ -4,7 +4,7 @@
 #include "catch.h"
 #include "oracle_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -195,4 +195,4 @@ TEST_CASE("the sky's directions are drawn with the density they state", "[oracle
     CHECK(SkyMap(constant_sky(vec3(1))).empty());
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

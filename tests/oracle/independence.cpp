@@ -10,7 +10,7 @@
 
 #include "catch.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -110,4 +110,4 @@ TEST_CASE("the compiler reads nothing forbidden for any oracle source", "[oracle
     CHECK(seen.find((source_root / "common/scene/scene.h").string()) != std::string::npos);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -4,7 +4,7 @@
 #include "catch.h"
 #include "oracle_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -134,4 +134,4 @@ TEST_CASE("a textured emitter gives what its texels add up to", "[oracle]") {
     check_irradiance(scene, dvec3(3, 2, 1) * truth, 0.012, 40000);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

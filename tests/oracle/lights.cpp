@@ -4,7 +4,7 @@
 #include "catch.h"
 #include "oracle_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -158,4 +158,4 @@ TEST_CASE("an environment map lies and turns as described", "[oracle]") {
     CHECK(environment_radiance(map, normalize(dvec3(-quarter, up, quarter))).y == 0);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

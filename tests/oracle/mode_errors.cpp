@@ -6,7 +6,7 @@
 #include "catch.h"
 #include "oracle_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -76,4 +76,4 @@ TEST_CASE("mis is the mode of least error where near mirrors see small lamps", "
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

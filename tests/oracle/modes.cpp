@@ -4,7 +4,7 @@
 #include "catch.h"
 #include "oracle_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -142,4 +142,4 @@ TEST_CASE("a near mirror shows of a lamp what a quadrature over the lamp gives",
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

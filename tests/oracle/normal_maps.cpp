@@ -5,7 +5,7 @@
 #include "catch.h"
 #include "oracle_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -230,4 +230,4 @@ TEST_CASE("a map makes no light, and takes of a smooth metal's next to nothing",
     });
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -4,7 +4,7 @@
 
 #include "catch.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -146,4 +146,4 @@ const char* name_of(oracle::Mode mode) {
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

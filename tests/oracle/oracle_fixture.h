@@ -10,7 +10,7 @@
 #include "generate/generate.h"
 #include "generate/shapes.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 using glm::dvec2;
 using glm::dvec3;
@@ -72,4 +72,4 @@ double polygon_irradiance(const std::vector<dvec3>& polygon, const dvec3& point,
 const std::vector<oracle::Mode>& all_modes();
 const char* name_of(oracle::Mode mode);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -6,7 +6,7 @@
 #include "oracle/traversal.h"
 #include "oracle_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -135,4 +135,4 @@ TEST_CASE("the oracle's rays meet what a loop over a generated scene meets", "[o
     CHECK(tally.different <= 2);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

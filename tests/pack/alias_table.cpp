@@ -6,7 +6,7 @@
 #include "catch.h"
 #include "pack/alias_table_build.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

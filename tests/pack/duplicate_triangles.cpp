@@ -3,8 +3,8 @@
 
 #include "pack_fixture.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

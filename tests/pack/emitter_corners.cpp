@@ -2,8 +2,8 @@
 
 #include "pack_fixture.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 TEST_CASE("Emitters that sampling the material does not find have no area among the emitters' corners") {
     Scene scene = least_scene();

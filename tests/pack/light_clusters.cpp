@@ -7,8 +7,8 @@
 #include "generate/generate.h"
 #include "pose/pose.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

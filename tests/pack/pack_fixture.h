@@ -6,7 +6,7 @@
 #include "pack/packed_scene.h"
 #include "generate/shapes.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// One square of rough black, one camera, no light.
 inline Scene least_scene() {
@@ -43,4 +43,4 @@ inline RenderSettings brdf_settings() {
     return s;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -1,8 +1,8 @@
 // Where packed things stand: moved to the camera, singular ones left out.
 #include "pack_fixture.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 TEST_CASE("The camera is the origin, and far scenes keep their digits") {
     Scene near = least_scene();

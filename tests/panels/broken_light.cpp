@@ -2,8 +2,8 @@
 #include "../cpu/broken_light.h"
 #include "panels_fixture.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 TEST_CASE("Both panels drop and count NaN and negative light samples, and agree on how many") {
     NEED_VULKAN();

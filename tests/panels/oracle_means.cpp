@@ -2,7 +2,7 @@
 
 #include "oracle_renderer/oracle_renderer.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 RenderSettings oracle_settings(std::uint32_t max_depth) {
     return statistical_settings(oracle_columns * oracle_tile, oracle_rows * oracle_tile, Integrator::path, max_depth);
@@ -39,4 +39,4 @@ double detectable_bias(const ImageMean& a, const ImageMean& b, double limit) {
     return (limit + nine_in_ten) * relative_error(a, b);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -3,7 +3,7 @@
 
 #include "panels_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// One picture on both: 4 x 3 tiles of `tile` pixels a side.
 inline constexpr int oracle_tile = 8;
@@ -30,4 +30,4 @@ ImageMean tile_mean(const Film& film, int column, int row);
 /// The relative bias that a test of this limit finds nine times in ten.
 double detectable_bias(const ImageMean& a, const ImageMean& b, double limit);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -4,7 +4,7 @@
 
 #include "scene/own_light.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 Film render_vulkan(const PackedScene& packed, std::uint32_t spp) {
     Film film;
     {
@@ -53,4 +53,4 @@ double fraction_equal(const Film& a, const Film& b) {
     return compare_images(develop(a), develop(b)).fraction_equal;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

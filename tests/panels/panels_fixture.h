@@ -10,7 +10,7 @@
 #include "vulkan_device.h"
 #include "renderer/vulkan_renderer.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// Renders on the device, under validation where its layer is installed, and fails on any message of it.
 Film render_vulkan(const PackedScene& packed, std::uint32_t spp);
@@ -28,4 +28,4 @@ RenderSettings paired_settings(int width, int height, Integrator integrator, Brd
 /// Share of pixels that differ by at most 1e-3 max(|a|, |b|) + 1e-6 in every channel.
 double fraction_equal(const Film& a, const Film& b);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

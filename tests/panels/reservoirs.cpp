@@ -7,7 +7,7 @@
 #include "vulkan_device.h"
 #include "renderer/vulkan_renderer.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 struct Watched {
@@ -99,4 +99,4 @@ TEST_CASE("Both panels keep the same reservoirs, pass by pass") {
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -4,7 +4,7 @@
 #include "vulkan_device.h"
 #include "renderer/vulkan_renderer.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 /// A driver that is unloaded and loaded again some thirty times in a process may refuse: one device stays open.
@@ -35,4 +35,4 @@ TEST_CASE("Long chains of restir stay unbiased on the device", "[nightly]") {
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

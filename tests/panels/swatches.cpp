@@ -4,7 +4,7 @@
 
 #include "oracle_means.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 TextureSlot add_texels(Scene& scene, const Texels& texels, Filter filter, Wrap wrap_u, Wrap wrap_v) {
     TextureImage image;
@@ -77,4 +77,4 @@ void check_swatches(const Scene& sheet, const std::vector<Swatch>& swatches, Brd
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -7,7 +7,7 @@
 
 #include "panels_fixture.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 struct Swatch {
     std::string name;
@@ -32,4 +32,4 @@ Scene swatch_sheet(Scene scene, const std::vector<Swatch>& swatches);
 /// Every swatch has the oracle's mean, judged as finely as `detectable`.
 void check_swatches(const Scene& sheet, const std::vector<Swatch>& swatches, BrdfModel brdf, double detectable);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

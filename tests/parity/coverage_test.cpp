@@ -9,7 +9,7 @@
 
 #include "catch.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 const std::filesystem::path root = DIPTYCH_SOURCE_DIR;
@@ -76,4 +76,4 @@ TEST_CASE("Every function of the leaf headers is called by a probe, and every pr
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

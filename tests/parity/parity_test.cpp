@@ -15,7 +15,7 @@
 #include "memory/upload.h"
 #include "vulkan_device.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 using shared::ProbeInput;
@@ -187,4 +187,4 @@ TEST_CASE("Every shared function gives on the device what it gives in C++, over 
     check_parity(1000, 1U << 22U, true);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

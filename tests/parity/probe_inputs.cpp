@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 using shared::uint;
@@ -178,4 +178,4 @@ std::vector<shared::ProbeInput> make_probe_inputs(std::uint32_t seed, std::uint3
     return inputs;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

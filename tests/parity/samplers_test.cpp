@@ -13,7 +13,7 @@
 #include "memory/upload.h"
 #include "vulkan_device.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 using shared::Drawn;
@@ -287,4 +287,4 @@ TEST_CASE("Millions of the device's draws follow their densities", "[nightly]") 
     check_no_validation_messages();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -4,7 +4,7 @@
 
 #include "file_scene.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 using nlohmann::json;
 
@@ -164,4 +164,4 @@ FirstHitMeans FileScene::first_hit(int camera, glm::dvec2 film, double aspect) c
     return out;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

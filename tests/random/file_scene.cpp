@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 using nlohmann::json;
 
@@ -123,4 +123,4 @@ void FileScene::add_primitive(const json& primitive, const glm::dmat4& to_world)
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -11,7 +11,7 @@
 
 #include "image/image_file.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// A member of so many numbers, or `fallback`.
 template <int n>
@@ -74,4 +74,4 @@ private:
     std::vector<glm::dmat4> lights_;
 };
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

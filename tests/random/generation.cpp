@@ -7,8 +7,8 @@
 #include "random_scene/scene_files.h"
 #include "random_scene/shrink.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

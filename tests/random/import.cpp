@@ -8,8 +8,8 @@
 #include "render/film_tiles.h"
 #include "stats/bias_verdict.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 
@@ -158,7 +158,7 @@ void check_material(const Material& m, const nlohmann::json& json) {
         {&m.specular_texture, specular.value("specularTexture", none)},
         {&m.specular_color_texture, specular.value("specularColorTexture", none)}};
     for (const auto& [slot, reference] : slots) {
-        CHECK((slot->texture != diptych::none) == reference.contains("index"));
+        CHECK((slot->texture != diptych::core::none) == reference.contains("index"));
         CHECK(slot->uv_set == reference.value("texCoord", 0));
     }
 }

@@ -11,7 +11,7 @@
 #include "random_scene/judge.h"
 #include "generate/random.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// A folder for one test's files, gone with it.
 class TestFolder {
@@ -33,4 +33,4 @@ private:
     std::filesystem::path path_;
 };
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -1,7 +1,7 @@
 // What resampling may need beyond what it does need changes nothing.
 #include "chain_cases.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 TEST_CASE("Every feature allowed gives the rays and the picture of those that are needed, whatever asks for visibility") {
     for (const auto visibility : {ResamplingVisibility::shading, ResamplingVisibility::target, ResamplingVisibility::biased_initial,
@@ -17,4 +17,4 @@ TEST_CASE("Every feature allowed gives the rays and the picture of those that ar
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -3,7 +3,7 @@
 #include "../cpu/agreement_scenes.h"
 #include "chain_cases.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 struct AlphaLamp {
@@ -51,4 +51,4 @@ TEST_CASE("ris and restir are unbiased where a lamp with alpha is within reach o
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -9,7 +9,7 @@
 #include "settings/names.h"
 #include "generate/generate.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 inline std::unique_ptr<Renderer> on_cpu(const PackedScene& packed) {
     return make_cpu_renderer(packed, 0);
@@ -193,4 +193,4 @@ inline void check_frames(const ChainCase& c, const std::vector<std::uint32_t>& f
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -7,7 +7,7 @@
 #include "scene/orbit.h"
 #include "pose/pose.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 /// The case's scene as frame `frame` shows it.
@@ -161,4 +161,4 @@ Difference difference(const std::vector<double>& a, const std::vector<double>& b
     return {(mean_a - mean_b) / error, 100 * (mean_a - mean_b) / mean_b, 196 * error / mean_b};
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -10,7 +10,7 @@
 #include "pack/packed_scene.h"
 #include "render/renderer.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 using MakeRenderer = std::function<std::unique_ptr<Renderer>(const PackedScene&)>;
 
@@ -50,4 +50,4 @@ struct Difference {
 
 Difference difference(const std::vector<double>& a, const std::vector<double>& b);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -2,7 +2,7 @@
 // more.
 #include "moving_cases.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 TEST_CASE("restir is unbiased over punctual lights of every kind that switch and move") {
     const std::pair<PunctualType, const char*> kinds[] = {
@@ -19,4 +19,4 @@ TEST_CASE("restir is unbiased where an occluder moves and then stops, with visib
     check_frames(coming_and_going_case(), coming_and_going_frames, 5);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

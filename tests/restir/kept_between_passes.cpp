@@ -7,7 +7,7 @@
 #include "backend/resampling_stages.h"
 #include "chain_cases.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 /// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
@@ -192,4 +192,4 @@ TEST_CASE("A picker that goes on from the sum over its clusters gives the densit
     CHECK(differs == 0);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

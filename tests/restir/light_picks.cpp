@@ -3,7 +3,7 @@
 #include "chain_cases.h"
 #include "stats/chi_square.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 /// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
@@ -219,4 +219,4 @@ TEST_CASE("Materials are sampled for lights twice where their lobe is narrow, an
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -6,7 +6,7 @@
 #include "backend/resampling_stages.h"
 #include "chain_cases.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 /// Counts rays. Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
@@ -276,4 +276,4 @@ TEST_CASE("Every ray that ris and restir trace is counted at its pixel, once") {
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -4,7 +4,7 @@
 #include "backend/resampling_stages.h"
 #include "chain_cases.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 /// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
@@ -295,4 +295,4 @@ TEST_CASE("What proves hidden in the end is handed on with less favor, or droppe
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

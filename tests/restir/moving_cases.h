@@ -3,7 +3,7 @@
 
 #include "chain_cases.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// One of a scene's steps a frame, so that a key at time f is frame f.
 inline ChainCase stepped_case(const std::string& name, Scene scene) {
@@ -92,4 +92,4 @@ inline ChainCase coming_and_going_case() {
 /// The first frames after each change, and the one before.
 inline const std::vector<std::uint32_t> coming_and_going_frames = {2, 3, 4, 5, 6, 8, 9};
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

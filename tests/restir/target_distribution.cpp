@@ -5,7 +5,7 @@
 #include "backend/resampling_stages.h"
 #include "chain_cases.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 namespace {
 
 /// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
@@ -134,4 +134,4 @@ TEST_CASE("A lamp's dim and bright parts get the shares that quadrature says, in
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -2,7 +2,7 @@
 // the reservoirs.
 #include "chain_cases.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 TEST_CASE("restir is unbiased at every frame, whatever its weights and wherever it puts visibility") {
     for (const ResamplingMis mis : {ResamplingMis::pairwise, ResamplingMis::balance, ResamplingMis::one_over_z}) {
@@ -207,4 +207,4 @@ TEST_CASE("The biased weights and shortcuts are what their names say") {
     }
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-using namespace diptych::shared;
-using diptych::tests::close;
+using namespace diptych::core::shared;
+using diptych::core::tests::close;
 
 namespace {
 

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// |a - b| <= relative |b|.
 inline bool close(double a, double b, double relative) {
     return std::abs(a - b) <= relative * std::abs(b);
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

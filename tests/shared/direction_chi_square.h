@@ -13,7 +13,7 @@
 #include "stats/chi_square.h"
 #include "stats/multiple_testing.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 using shared::vec2;
 using shared::vec3;
@@ -246,7 +246,7 @@ ChiSquareResult chi_square(const Chart& chart, int64_t draws, const Draw& draw, 
 
 /// The least p-value that passes one of `tests` tests at a family-wise error of 1e-3 (Šidák).
 inline double sidak_threshold(int tests) {
-    return diptych::sidak_threshold(1e-3, tests);
+    return diptych::core::sidak_threshold(1e-3, tests);
 }
 
 /// The unit direction with that cosine and azimuth.
@@ -256,4 +256,4 @@ inline vec3 direction_at(double cosine, double phi) {
                 static_cast<float>(cosine));
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

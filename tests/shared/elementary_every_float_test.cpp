@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-using namespace diptych::shared;
+using namespace diptych::core::shared;
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include "catch.h"
 #include "direction_chi_square.h"
 
-using namespace diptych::shared;
-using namespace diptych::tests;
+using namespace diptych::core::shared;
+using namespace diptych::core::tests;
 
 TEST_CASE("Normal reflectance follows the index of refraction") {
     CHECK(close(dielectric_f0(1.5f), 0.04, 1e-5));

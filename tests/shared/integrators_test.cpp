@@ -2,7 +2,7 @@
 
 #include "catch.h"
 
-using namespace diptych::shared;
+using namespace diptych::core::shared;
 
 TEST_CASE("Every integrator does what its name says") {
     struct Row {

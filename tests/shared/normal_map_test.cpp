@@ -8,8 +8,8 @@
 #include "direction_chi_square.h"
 #include "bsdf/surface_bsdf.h"
 
-using namespace diptych::shared;
-using namespace diptych::tests;
+using namespace diptych::core::shared;
+using namespace diptych::core::tests;
 
 namespace {
 

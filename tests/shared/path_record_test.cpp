@@ -5,7 +5,7 @@
 
 #include "catch.h"
 
-using namespace diptych::shared;
+using namespace diptych::core::shared;
 
 namespace {
 

@@ -8,10 +8,10 @@
 #include "numbers/rng.h"
 #include "stats/chi_square.h"
 
-using namespace diptych::shared;
-using diptych::chi_square_deviate;
-using diptych::chi_square_fit;
-using diptych::deviate_limit;
+using namespace diptych::core::shared;
+using diptych::core::chi_square_deviate;
+using diptych::core::chi_square_fit;
+using diptych::core::deviate_limit;
 
 namespace {
 

@@ -6,9 +6,9 @@
 
 #include <set>
 
-using namespace diptych::shared;
-using diptych::deviate_limit;
-using diptych::uniform_deviate;
+using namespace diptych::core::shared;
+using diptych::core::deviate_limit;
+using diptych::core::uniform_deviate;
 
 TEST_CASE("pcg4d and hash_word give the words of the published definitions") {
     // Computed from the papers' definitions with integers of unlimited size.

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <set>
 
-using namespace diptych::shared;
-using diptych::deviate_limit;
-using diptych::uniform_deviate;
+using namespace diptych::core::shared;
+using diptych::core::deviate_limit;
+using diptych::core::uniform_deviate;
 
 namespace {
 

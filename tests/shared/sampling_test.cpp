@@ -11,10 +11,10 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace diptych::shared;
-using diptych::chi_square_deviate;
-using diptych::deviate_limit;
-using diptych::tests::close;
+using namespace diptych::core::shared;
+using diptych::core::chi_square_deviate;
+using diptych::core::deviate_limit;
+using diptych::core::tests::close;
 
 namespace {
 
@@ -91,7 +91,7 @@ TEST_CASE("The disk is uniform") {
         REQUIRE(squared < 1 + 1e-6);
         cells[std::size_t(std::min(squared * 64, 63.0)) * columns + azimuth_cell(p.x, p.y)] += 1;
     }
-    CHECK(std::abs(diptych::uniform_deviate(cells)) < deviate_limit);
+    CHECK(std::abs(diptych::core::uniform_deviate(cells)) < deviate_limit);
 }
 
 TEST_CASE("Warps are defined at the ends of u") {

@@ -7,8 +7,8 @@
 #include "catch.h"
 #include "direction_chi_square.h"
 
-using namespace diptych::shared;
-using namespace diptych::tests;
+using namespace diptych::core::shared;
+using namespace diptych::core::tests;
 
 namespace {
 

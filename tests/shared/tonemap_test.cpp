@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace diptych::shared;
-using diptych::tests::close;
+using namespace diptych::core::shared;
+using diptych::core::tests::close;
 
 namespace {
 

@@ -8,9 +8,9 @@
 
 #include <cmath>
 
-using namespace diptych::shared;
-using diptych::chi_square_deviate;
-using diptych::deviate_limit;
+using namespace diptych::core::shared;
+using diptych::core::chi_square_deviate;
+using diptych::core::deviate_limit;
 
 namespace {
 
@@ -106,7 +106,7 @@ TEST_CASE("sample_triangle is uniform and stays inside at the ends of u") {
         const double root = 1 - double(b.x);
         cells[std::size_t(std::min(root * root * 32, 31.0)) * 32 + std::size_t(std::min(b.y / root * 32, 31.0))] += 1;
     }
-    CHECK(std::abs(diptych::uniform_deviate(cells)) < deviate_limit);
+    CHECK(std::abs(diptych::core::uniform_deviate(cells)) < deviate_limit);
 }
 
 TEST_CASE("Solid angles agree with fp64 from 1e-10 sr to 2 pi") {

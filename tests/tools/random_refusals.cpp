@@ -11,8 +11,8 @@
 #include "error.h"
 #include "commands/program.h"
 
-using namespace diptych;
-using diptych::image_tests::TemporaryFolder;
+using namespace diptych::core;
+using diptych::core::image_tests::TemporaryFolder;
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "error.h"
 
-using namespace diptych;
+using namespace diptych::core;
 
 namespace {
 

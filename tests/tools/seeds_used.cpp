@@ -12,8 +12,8 @@
 #include "commands/program.h"
 #include "settings/names.h"
 
-using namespace diptych;
-using diptych::image_tests::TemporaryFolder;
+using namespace diptych::core;
+using diptych::core::image_tests::TemporaryFolder;
 
 namespace {
 

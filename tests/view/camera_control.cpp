@@ -8,8 +8,8 @@
 #include "generate/shapes.h"
 #include "scene/viewpoint.h"
 
-using namespace diptych;
-using namespace diptych::app;
+using namespace diptych::core;
+using namespace diptych::core::app;
 
 namespace {
 

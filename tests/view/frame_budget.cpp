@@ -3,7 +3,7 @@
 
 #include "catch.h"
 
-using namespace diptych::app;
+using namespace diptych::core::app;
 
 namespace {
 

@@ -5,8 +5,8 @@
 
 #include "catch.h"
 
-using namespace diptych;
-using namespace diptych::app;
+using namespace diptych::core;
+using namespace diptych::core::app;
 
 namespace {
 

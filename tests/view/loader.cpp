@@ -11,9 +11,9 @@
 #include "gltf/write.h"
 #include "view_fixture.h"
 
-using namespace diptych;
-using namespace diptych::app;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::app;
+using namespace diptych::core::tests;
 
 namespace {
 

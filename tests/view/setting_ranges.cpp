@@ -12,8 +12,8 @@
 #include "settings/ranges.h"
 #include "view/view_state.h"
 
-using namespace diptych;
-using namespace diptych::app;
+using namespace diptych::core;
+using namespace diptych::core::app;
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include "catch.h"
 #include "view/film_figures.h"
 
-using namespace diptych;
-using namespace diptych::app;
+using namespace diptych::core;
+using namespace diptych::core::app;
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include "generate/shapes.h"
 #include "view/panel_worker.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// A lit square under a constant sky.
 inline std::shared_ptr<Scene> small_scene() {
@@ -152,4 +152,4 @@ inline app::RendererFactory fake_factory(const std::shared_ptr<Script>& script) 
     return [script](const PackedScene& packed) { return std::make_unique<FakeRenderer>(script, packed); };
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::string VirtualDisplay::hand(const std::vector<std::string>& arguments) cons
     return text;
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

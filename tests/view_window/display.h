@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 /// Whether the programs that these tests need are installed: Xvfb and xdotool.
 bool has_virtual_display();
@@ -32,4 +32,4 @@ private:
 /// them.
 bool drop_files(const std::string& display, unsigned long window, const std::vector<std::string>& files);
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -130,4 +130,4 @@ ProcessResult DrivenView::quit() {
     return process_.finish();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -9,7 +9,7 @@
 #include "../app/process.h"
 #include "display.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 using Event = nlohmann::json;
 
@@ -48,4 +48,4 @@ private:
     unsigned long window_ = 0;
 };
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -12,7 +12,7 @@
 
 #include "display.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 namespace {
 
@@ -113,4 +113,4 @@ bool drop_files(const std::string& display, unsigned long window, const std::vec
     return DropSource(opened.get(), window, uris).run();
 }
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

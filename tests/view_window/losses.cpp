@@ -8,8 +8,8 @@
 #include "catch.h"
 #include "open_display.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "catch.h"
 #include "driven_view.h"
 
-namespace diptych::tests {
+namespace diptych::core::tests {
 
 inline bool is_settled(const Event& event) {
     return event["divisor"] == 1 && event["spp"] >= 2;
@@ -31,4 +31,4 @@ inline void check_clean(const ProcessResult& result) {
     const TemporaryFolder folder;                                                                                      \
     const std::string scene = generate_scene(folder, "cornell");
 
-}  // namespace diptych::tests
+}  // namespace diptych::core::tests

@@ -6,8 +6,8 @@
 #include "image/layered_image.h"
 #include "open_display.h"
 
-using namespace diptych;
-using namespace diptych::tests;
+using namespace diptych::core;
+using namespace diptych::core::tests;
 
 TEST_CASE("a view is opened, orbited, flown, switched, resized, saved and closed", "[view_window]") {
     OPEN_DISPLAY(display, folder, scene)

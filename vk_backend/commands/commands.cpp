@@ -4,7 +4,7 @@
 #include <exception>
 #include <limits>
 
-namespace diptych {
+namespace diptych::core {
 
 CommandSlot::CommandSlot(const Gpu& gpu)
     : gpu_(gpu), pool_(gpu.device.createCommandPool({.queueFamilyIndex = gpu.queue_family})),
@@ -19,7 +19,7 @@ void CommandSlot::submit(const Record& record) {
     record(recorder);
     commands_.end();
     const vk::SubmitInfo info{.commandBufferCount = 1, .pCommandBuffers = &*commands_};
-    diptych::submit(gpu_, info, *fence_);
+    core::submit(gpu_, info, *fence_);
     in_flight_ = true;
 }
 
@@ -61,4 +61,4 @@ void run_commands(const Gpu& gpu, const Record& record) {
     slot.wait();
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

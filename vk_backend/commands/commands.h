@@ -7,7 +7,7 @@
 #include "device/gpu.h"
 #include "commands/recorder.h"
 
-namespace diptych {
+namespace diptych::core {
 
 using Record = std::function<void(Recorder&)>;
 
@@ -51,4 +51,4 @@ private:
 /// Records, submits, waits.
 void run_commands(const Gpu& gpu, const Record& record);
 
-}  // namespace diptych
+}  // namespace diptych::core

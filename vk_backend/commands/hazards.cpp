@@ -2,7 +2,7 @@
 
 #include "language/compat.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 template <class Enum>
@@ -69,4 +69,4 @@ void Hazards::order(const Barrier& barrier) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace diptych {
+namespace diptych::core {
 
 /// What one pass may hand on to another. Parts of a buffer that passes use apart are resources of their own.
 enum class Resource : std::uint8_t {
@@ -79,4 +79,4 @@ private:
     std::array<Marks, static_cast<std::size_t>(Resource::count)> marks_{};
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

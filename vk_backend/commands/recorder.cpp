@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Flags = vk::AccessFlagBits;
@@ -57,4 +57,4 @@ void Recorder::use(std::span<const Use> uses, std::initializer_list<Use> more) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

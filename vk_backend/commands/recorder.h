@@ -6,7 +6,7 @@
 #include "commands/hazards.h"
 #include "device/vulkan_headers.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Whoever records a command says first what it uses. Within a submission, barriers come from that alone.
 class Recorder {
@@ -29,4 +29,4 @@ private:
     Hazards hazards_;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::core {
 
 SliceCursor::SliceCursor(Region region, std::uint32_t first_sample, std::uint32_t sample_count)
     : region_(region), sample_(first_sample), remaining_(sample_count) {}
@@ -66,4 +66,4 @@ void SpeedEstimate::learn(std::uint64_t work, double seconds) {
     budget_ = std::min(wanted(), std::max(budget_, work) * 8);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace diptych {
+namespace diptych::core {
 
 /// Pixels [x, x + width) x [y, y + height).
 struct Region {
@@ -60,4 +60,4 @@ private:
     std::uint64_t budget_;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

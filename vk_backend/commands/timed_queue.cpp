@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace diptych {
+namespace diptych::core {
 
 TimedQueue::TimedQueue(const Gpu& gpu, Finished finished)
     : gpu_(gpu), finished_(std::move(finished)), slots_{make_slot(), make_slot()} {}
@@ -91,4 +91,4 @@ void TimedQueue::finish(Slot& slot) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

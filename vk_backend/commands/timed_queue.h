@@ -9,7 +9,7 @@
 
 #include "commands/commands.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// A stretch of a submission, timed by itself.
 struct TimedPart {
@@ -60,4 +60,4 @@ private:
     double last_end_ = 0;  // by now_seconds
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

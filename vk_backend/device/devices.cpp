@@ -6,7 +6,7 @@
 
 #include "device/loader.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 std::string type_name(vk::PhysicalDeviceType type) {
@@ -199,4 +199,4 @@ vk::raii::PhysicalDevice choose_device(const vk::raii::Instance& instance, const
     return devices[choose_device_index(infos, choice)];
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -10,7 +10,7 @@ class Instance;
 class PhysicalDevice;
 }  // namespace vk::raii
 
-namespace diptych {
+namespace diptych::core {
 
 struct VulkanDeviceInfo {
     std::string name;
@@ -41,4 +41,4 @@ vk::raii::PhysicalDevice choose_device(const vk::raii::Instance& instance, const
 /// Extensions that a usable device has and that are enabled on it.
 const std::vector<const char*>& required_extensions();
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 
 #include "device/devices.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 void require_presentation(const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
@@ -86,4 +86,4 @@ void wait_idle(const Gpu& gpu) {
     in_context("waiting for the device", [&] { gpu.device.waitIdle(); });
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -11,7 +11,7 @@
 #include "device/loader.h"
 #include "device/vulkan_headers.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct GpuRequest {
     std::string device = {};                            // "" the best, else an index or a part of the name (devices.h)
@@ -44,4 +44,4 @@ void submit(const Gpu& gpu, const vk::SubmitInfo& info, vk::Fence fence);
 /// Waits for all that any thread has submitted. Throws DeviceLost or another Error.
 void wait_idle(const Gpu& gpu);
 
-}  // namespace diptych
+}  // namespace diptych::core

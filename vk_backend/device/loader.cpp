@@ -10,7 +10,7 @@
 
 #include "device/validation.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr const char* layer_name = "VK_LAYER_KHRONOS_validation";
@@ -88,4 +88,4 @@ VulkanInstance open_instance(bool validation, std::span<const std::string> exten
     return opened;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

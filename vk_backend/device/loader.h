@@ -8,7 +8,7 @@
 
 #include "device/vulkan_headers.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct VulkanInstance {
     vk::raii::Context context;
@@ -21,4 +21,4 @@ struct VulkanInstance {
 /// is no loader, no driver, an older Vulkan or no such extension; Error where the validation layer is missing.
 VulkanInstance open_instance(bool validation, std::span<const std::string> extensions = {});
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -9,7 +9,7 @@
 
 #include "image/atomic_file.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 struct Header {
@@ -100,4 +100,4 @@ void save_pipeline_cache(const vk::raii::PipelineCache& cache, const std::filesy
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

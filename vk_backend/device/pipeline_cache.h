@@ -7,7 +7,7 @@
 
 #include "device/gpu.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// XDG_CACHE_HOME/diptych or ~/.cache/diptych, a file a device and driver version; empty where there is neither folder.
 std::filesystem::path pipeline_cache_path(const Gpu& gpu);
@@ -25,4 +25,4 @@ vk::raii::PipelineCache open_pipeline_cache(const Gpu& gpu, const std::filesyste
 /// Writes the cache back if it differs from the file.
 void save_pipeline_cache(const vk::raii::PipelineCache& cache, const std::filesystem::path& path);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 
 #include "device/vulkan_headers.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr std::size_t kept_messages = 100;
@@ -70,4 +70,4 @@ vk::DebugUtilsMessengerCreateInfoEXT validation_messenger() {
     return messenger;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -9,7 +9,7 @@ namespace vk {
 struct DebugUtilsMessengerCreateInfoEXT;
 }  // namespace vk
 
-namespace diptych {
+namespace diptych::core {
 
 /// Warnings and errors so far, the first 100 of them in full.
 std::vector<std::string> validation_messages();
@@ -22,4 +22,4 @@ bool validation_wanted(bool option);
 /// The callback that collects messages; each of the first 100 is printed to stderr too.
 vk::DebugUtilsMessengerCreateInfoEXT validation_messenger();
 
-}  // namespace diptych
+}  // namespace diptych::core

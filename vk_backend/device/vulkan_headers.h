@@ -9,7 +9,7 @@
 
 #include "error.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Runs `work`; a failing Vulkan call in it becomes an Error that says what was being done, DeviceLost where the device
 /// is lost.
@@ -24,4 +24,4 @@ auto in_context(const std::string& doing, Work&& work) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -14,7 +14,7 @@
 #include "shader_binaries.h"
 #include "film/tonemap.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Access = vk::AccessFlagBits;
@@ -303,4 +303,4 @@ Image read_display(const Gpu& gpu, const DisplayPicture& picture) {
     });
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "image/tonemap_image.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// The values are those of shaders/display.h.
 enum class DisplayLayer : std::uint32_t {
@@ -87,4 +87,4 @@ std::optional<DisplayRange> shown_range(const DisplayPicture& picture, std::uint
 /// Display values in [0, 1], 3 channels, for write_png. The picture has been recorded and submitted.
 Image read_display(const Gpu& gpu, const DisplayPicture& picture);
 
-}  // namespace diptych
+}  // namespace diptych::core

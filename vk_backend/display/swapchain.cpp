@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
@@ -171,4 +171,4 @@ SurfaceResult FrameSlot::end(const Swapchain& swapchain) {
     });
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 
 #include "device/gpu.h"
 
-namespace diptych {
+namespace diptych::core {
 
 enum class SurfaceResult {
     ok,
@@ -71,4 +71,4 @@ private:
 
 constexpr std::size_t frames_in_flight = 2;
 
-}  // namespace diptych
+}  // namespace diptych::core

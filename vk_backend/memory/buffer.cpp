@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Property = vk::MemoryPropertyFlagBits;
@@ -77,4 +77,4 @@ vk::raii::DeviceMemory allocate_image(const Gpu& gpu, const vk::raii::Image& ima
     return memory;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 
 #include "device/gpu.h"
 
-namespace diptych {
+namespace diptych::core {
 
 enum class MemoryKind {
     device,    // the GPU's own
@@ -35,4 +35,4 @@ constexpr std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
     return (value + alignment - 1) & ~(alignment - 1);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

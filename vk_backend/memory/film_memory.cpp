@@ -4,7 +4,7 @@
 #include "memory/readback.h"
 #include "language/scene_features.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Usage = vk::BufferUsageFlagBits;
@@ -69,4 +69,4 @@ std::uint64_t film_bytes(const FilmMemory& film) {
     return film.pixels.size + film.moments.size + film.first_hits.size;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

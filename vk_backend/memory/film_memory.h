@@ -6,7 +6,7 @@
 #include "render/film.h"
 #include "memory/scene_addresses.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Row-major from the top. Buffers of layers that are left out are not allocated.
 struct FilmMemory {
@@ -34,4 +34,4 @@ Film read_film(const Gpu& gpu, const FilmMemory& film);
 
 std::uint64_t film_bytes(const FilmMemory& film);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 
 #include "commands/commands.h"
 
-namespace diptych {
+namespace diptych::core {
 
 void read_buffer(const Gpu& gpu, const Buffer& buffer, std::span<std::byte> bytes) {
     if (bytes.empty()) {
@@ -20,4 +20,4 @@ void read_buffer(const Gpu& gpu, const Buffer& buffer, std::span<std::byte> byte
     std::memcpy(bytes.data(), host.mapped, bytes.size());
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 
 #include "memory/buffer.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Copies the buffer's first bytes. Nothing that writes it may be in flight.
 void read_buffer(const Gpu& gpu, const Buffer& buffer, std::span<std::byte> bytes);
@@ -19,4 +19,4 @@ std::vector<T> read_array(const Gpu& gpu, const Buffer& buffer) {
     return elements;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include "../../shaders/device_buffers.h"
 #include "language/scene_buffers.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Device addresses; 0 where there is no such buffer.
 struct SceneAddresses {
@@ -21,4 +21,4 @@ struct SceneAddresses {
 #undef DECLARE_ADDRESS
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

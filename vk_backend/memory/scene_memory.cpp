@@ -7,7 +7,7 @@
 
 #include "error.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 // Any of them may feed an acceleration structure build; the flag costs nothing on those that do not.
@@ -111,4 +111,4 @@ std::uint64_t scene_bytes(const SceneMemory& scene) {
     return bytes;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include "memory/scene_addresses.h"
 #include "memory/upload.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct SceneMemory {
 #define DECLARE_BUFFER(Type, name) Buffer name;
@@ -34,4 +34,4 @@ SceneAddresses scene_addresses(const SceneMemory& scene);
 
 std::uint64_t scene_bytes(const SceneMemory& scene);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include "commands/commands.h"
 #include "language/compat.h"
 
-namespace diptych {
+namespace diptych::core {
 
 Uploader::Uploader(const Gpu& gpu, std::uint64_t capacity)
     : gpu_(gpu),
@@ -39,4 +39,4 @@ void Uploader::finish() {
     used_ = 0;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 
 #include "memory/buffer.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Gathers copies until the staging buffer is full, then submits them together. finish() sends the rest.
 class Uploader {
@@ -40,4 +40,4 @@ Buffer upload_array(const Gpu& gpu, Uploader& uploader, const char* what, std::s
     return buffer;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -1,6 +1,6 @@
 #include "passes/pass.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 void bind(const vk::raii::CommandBuffer& commands, vk::PipelineBindPoint point, const vk::raii::Pipeline& pipeline,
@@ -42,4 +42,4 @@ void compute_region(Recorder& recorder, const ComputePipeline& compute, const Pi
     recorder->dispatch(groups(dispatch.region.x), groups(dispatch.region.y), 1);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -9,7 +9,7 @@
 #include "pipelines/pipeline.h"
 #include "commands/slices.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Invocations of a compute shader in groups of WAVE_GROUP that any device takes at a time.
 constexpr std::uint64_t most_invocations = std::uint64_t{65535} * shared::WAVE_GROUP;
@@ -31,4 +31,4 @@ void bind_pass(Recorder& recorder, const ComputePipeline& compute, const Pipelin
 void compute_region(Recorder& recorder, const ComputePipeline& compute, const PipelineLayout& layout,
                     const Bindings& bindings, const shared::Dispatch& dispatch);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include "error.h"
 #include "shader_binaries.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using enum Resource;
@@ -85,4 +85,4 @@ std::span<const Use> uses_of(Spirv shader) {
     return found->uses;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -9,7 +9,7 @@
 #include "commands/hazards.h"
 #include "pipelines/pipeline.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct PassUses {
     std::string_view
@@ -22,4 +22,4 @@ std::span<const PassUses> pass_table();
 /// Of a shader of shaders/ that begins a pass. Throws Error where the table lacks it.
 std::span<const Use> uses_of(Spirv shader);
 
-}  // namespace diptych
+}  // namespace diptych::core

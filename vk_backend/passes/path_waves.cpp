@@ -10,7 +10,7 @@
 #include "memory/readback.h"
 #include "language/scene_features.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Usage = vk::BufferUsageFlagBits;
@@ -152,4 +152,4 @@ void SliceWaves::trace(Recorder& recorder, const TracePipeline& pipeline, std::s
     trace_indirect(recorder, pipeline, memory_.counts.address + counts_at(counted));
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

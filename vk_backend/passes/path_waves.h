@@ -5,7 +5,7 @@
 
 #include "passes/pass.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Paths in flight at a time, for a film of so many pixels: one of each, within bounds and a part of the device's
 /// memory. A film of few pixels has several samples of each in flight, one of very many goes in parts.
@@ -74,4 +74,4 @@ private:
     shared::Dispatch dispatch_;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 
 #include "shader_binaries.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Usage = vk::BufferUsageFlagBits;
@@ -114,4 +114,4 @@ void record_candidates(Recorder& recorder, const CandidatePipelines& pipelines, 
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include "render/resampling_schedule.h"
 #include "memory/scene_addresses.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct ResamplingMemory {
     Buffer first_vertices;
@@ -45,4 +45,4 @@ struct CandidatePipelines {
 void record_candidates(Recorder& recorder, const CandidatePipelines& pipelines, const PipelineLayout& layout,
                        const Bindings& bindings, const ResamplingMemory& memory, const shared::Dispatch& dispatch);
 
-}  // namespace diptych
+}  // namespace diptych::core

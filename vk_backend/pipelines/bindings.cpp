@@ -4,7 +4,7 @@
 
 #include "memory/upload.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr std::uint32_t structure_binding = 0;
@@ -75,4 +75,4 @@ void record_values(Recorder& recorder, const Bindings& bindings, const SceneAddr
     recorder->updateBuffer<shared::RenderConstants>(*bindings.constants.handle, 0, constants);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

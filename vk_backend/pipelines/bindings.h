@@ -6,7 +6,7 @@
 #include "memory/scene_addresses.h"
 #include "language/scene_types.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct Bindings {
     Buffer addresses;
@@ -34,4 +34,4 @@ void record_values(Recorder& recorder, const Bindings& bindings, const SceneAddr
 /// Other structures take their places. Nothing that reads the set may be in flight.
 void replace_structures(const Gpu& gpu, const Bindings& bindings, const Structures& structures);
 
-}  // namespace diptych
+}  // namespace diptych::core

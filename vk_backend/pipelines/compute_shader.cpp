@@ -4,7 +4,7 @@
 
 #include "commands/commands.h"
 
-namespace diptych {
+namespace diptych::core {
 
 ComputeShader::ComputeShader(const Gpu& gpu, std::span<const std::uint32_t> spirv, std::uint32_t buffers) : gpu_(gpu) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
@@ -59,4 +59,4 @@ Buffer make_storage(const Gpu& gpu, std::uint64_t bytes) {
                        Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst, MemoryKind::device);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 
 #include "memory/buffer.h"
 
-namespace diptych {
+namespace diptych::core {
 
 class ComputeShader {
 public:
@@ -29,4 +29,4 @@ private:
 /// Device memory that a shader reads and writes and the host copies to and from.
 Buffer make_storage(const Gpu& gpu, std::uint64_t bytes);
 
-}  // namespace diptych
+}  // namespace diptych::core

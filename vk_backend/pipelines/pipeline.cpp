@@ -8,7 +8,7 @@
 #include "../../shaders/dispatch.h"
 #include "memory/upload.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Stage = vk::ShaderStageFlagBits;
@@ -170,4 +170,4 @@ void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipelin
     commands.traceRaysKHR(pipeline.ray_generation, pipeline.miss, pipeline.hit, {}, width, height, 1);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include "memory/buffer.h"
 #include "commands/recorder.h"
 
-namespace diptych {
+namespace diptych::core {
 
 using Spirv = std::span<const std::uint32_t>;
 
@@ -68,4 +68,4 @@ void trace_indirect(const vk::raii::CommandBuffer& commands, const TracePipeline
 void trace(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, std::uint32_t width,
            std::uint32_t height);
 
-}  // namespace diptych
+}  // namespace diptych::core

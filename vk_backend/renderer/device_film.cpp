@@ -5,7 +5,7 @@
 #include "commands/commands.h"
 #include "language/scene_features.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 std::uint32_t layers_of(const Film& film) {
@@ -32,4 +32,4 @@ DeviceFilm FilmUploader::upload(const Film& film) {
     });
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -10,7 +10,7 @@
 #include "passes/resampling_passes.h"
 #include "memory/upload.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct DeviceFilm {
     std::shared_ptr<const Gpu> gpu;                      // that it lies on, and that outlives it
@@ -34,4 +34,4 @@ private:
     std::shared_ptr<FilmMemory> film_;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -4,7 +4,7 @@
 #include "error.h"
 #include "renderer/path_renderer.h"
 
-namespace diptych {
+namespace diptych::core {
 // From here to the last line nothing is bound: where memory runs out midway, the renderer refuses to render until it
 // has been given settings that fit.
 void PathRenderer::reconfigure(const PackedScene& packed) {
@@ -63,4 +63,4 @@ void PathRenderer::replace_film() {
     reservoir_set_.reset();
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

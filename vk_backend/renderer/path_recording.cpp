@@ -7,7 +7,7 @@
 #include "shader_binaries.h"
 #include "memory/upload.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Queries = std::span<const shared::PathQuery>;
@@ -106,4 +106,4 @@ std::vector<RecordedPath> PathRenderer::record_paths(Queries queries, std::optio
     });
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include "passes/pass_table.h"
 #include "shader_binaries.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 InstanceGroups chosen_groups(const Gpu& gpu, const PackedScene& packed, Grouping grouping) {
@@ -374,4 +374,4 @@ std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const P
     return std::make_unique<PathRenderer>(std::move(gpu), packed, with_options({}, options));
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

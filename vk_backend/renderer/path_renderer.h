@@ -22,7 +22,7 @@
 #include "commands/timed_queue.h"
 #include "renderer/vulkan_renderer.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Whether instances that stand still are gathered (instance_groups.h): on a GPU, where that pays (decision 0010), or
 /// for a test anywhere.
@@ -143,4 +143,4 @@ void record_dispatch(Recorder& recorder, const TracePipeline& pipeline, const Pi
                      const Bindings& bindings, const shared::Dispatch& dispatch, std::uint32_t width,
                      std::uint32_t height);
 
-}  // namespace diptych
+}  // namespace diptych::core

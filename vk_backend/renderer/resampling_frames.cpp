@@ -4,7 +4,7 @@
 #include "renderer/path_renderer.h"
 #include "memory/readback.h"
 
-namespace diptych {
+namespace diptych::core {
 
 // Passes of a fast device go together in one submission, up to the budget; a pass of a slow one is cut into several. A
 // frame that has begun is finished, or its reservoirs would be of two frames. Waves are submitted by themselves.
@@ -84,4 +84,4 @@ std::vector<PassTime> PathRenderer::pass_times() const {
     return times;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -6,7 +6,7 @@
 #include "memory/readback.h"
 #include "shader_binaries.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr int repeats = 7;  // the median of which counts
@@ -145,4 +145,4 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
     });
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -10,7 +10,7 @@
 #include "render/renderer.h"
 #include "device/validation.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct Gpu;
 
@@ -32,4 +32,4 @@ std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const 
 std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed,
                                                const VulkanOptions& options = {});
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -13,7 +13,7 @@
 #include "pack/packed_scene.h"
 #include "memory/scene_memory.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Of a command that builds structures: an upper level reads lower ones.
 inline constexpr std::array uses_of_build = {
@@ -71,4 +71,4 @@ TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const Bottom
 /// it may be in flight.
 void move_top_level(const Gpu& gpu, const PackedScene& moment, const BottomLevels& bottom, TopLevel& top);
 
-}  // namespace diptych
+}  // namespace diptych::core

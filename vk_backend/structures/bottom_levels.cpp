@@ -4,7 +4,7 @@
 #include "commands/commands.h"
 #include "memory/upload.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 constexpr std::uint64_t structure_alignment =
@@ -277,4 +277,4 @@ BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, cons
     return levels;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

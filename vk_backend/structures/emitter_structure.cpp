@@ -8,7 +8,7 @@
 #include "pack/emitter_corners.h"
 #include "memory/upload.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Usage = vk::BufferUsageFlagBits;
@@ -140,4 +140,4 @@ void move_emitters(const Gpu& gpu, const PackedScene& packed, EmitterStructure& 
     emitters.revision = packed.revisions.emissive_triangles;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

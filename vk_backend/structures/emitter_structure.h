@@ -8,7 +8,7 @@
 #include "memory/buffer.h"
 #include "pack/packed_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct EmitterStructure {
     Buffer bottom_storage;
@@ -30,4 +30,4 @@ inline std::uint64_t emitter_bytes(const EmitterStructure& emitters) {
     return emitters.bottom_storage.size + emitters.top_storage.size;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 // The table's index and a one for "there is none" share the 24 bits of an instance's custom index.
@@ -101,4 +101,4 @@ InstanceGroups group_instances(const PackedScene& packed, const GroupLimits& lim
     return kept;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

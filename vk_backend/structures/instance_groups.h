@@ -8,7 +8,7 @@
 
 #include "pack/packed_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// A mesh placed k times is built k times. The triangles that are then there more than once are bounded by this number,
 /// or by that of all meshes where they have more.
@@ -36,4 +36,4 @@ inline bool is_grouped(const InstanceGroups& groups, std::size_t instance) {
 /// let them.
 InstanceGroups group_instances(const PackedScene& packed, const GroupLimits& limits = {});
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 // For instances, and cameras, that move after the structures were built.
@@ -89,4 +89,4 @@ std::vector<float> mesh_units(const PackedScene& packed, const InstanceGroups& g
     return units;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

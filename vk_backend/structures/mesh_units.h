@@ -7,7 +7,7 @@
 #include "structures/instance_groups.h"
 #include "pack/packed_scene.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Of each mesh, a power of two: its bottom level holds its vertices divided by the unit, and the matrices of its
 /// instances are multiplied by it. Both are exact, so a unit changes no result but the rounding of the inverse matrix.
@@ -18,4 +18,4 @@ namespace diptych {
 /// here A's entries are larger than t's, with room for instances and cameras that move.
 std::vector<float> mesh_units(const PackedScene& packed, const InstanceGroups& groups);
 
-}  // namespace diptych
+}  // namespace diptych::core

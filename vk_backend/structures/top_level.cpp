@@ -7,7 +7,7 @@
 #include "commands/commands.h"
 #include "memory/upload.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 using Usage = vk::BufferUsageFlagBits;
@@ -178,4 +178,4 @@ void move_top_level(const Gpu& gpu, const PackedScene& moment, const BottomLevel
     build(gpu, top, top.instances, top.scratch);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

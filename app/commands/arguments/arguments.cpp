@@ -13,7 +13,7 @@
 #include "session/scene_setup.h"
 #include "settings/names.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -223,4 +223,4 @@ Scene prepare_scene(RenderArguments& arguments) {
     return scene;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -14,7 +14,7 @@ class Option;
 class Validator;
 }  // namespace CLI
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Options as typed, and the request that they fill.
 struct RenderArguments {
@@ -83,4 +83,4 @@ Scene prepare_scene(RenderArguments& arguments);
 /// "WxH", or a height to which the camera's aspect gives the width; empty is 512 high. Throws Error.
 void resolve_size(RenderArguments& arguments, const Camera& camera);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

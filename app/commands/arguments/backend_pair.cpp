@@ -8,7 +8,7 @@
 #include "session/open_session.h"
 #include "error.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 void add_pair_options(CLI::App& command, PairArguments& pair) {
     command.add_option("--backends", pair.backends, "Those to compare: cpu, vulkan")
@@ -52,4 +52,4 @@ std::vector<Session> open_sessions(const Scene& scene, const RenderSettings& set
     return sessions;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,7 +7,7 @@
 #include "commands/arguments/arguments.h"
 #include "render/session.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Options as typed. Device and threads are kept apart from the request, each for the backend that it is meant for.
 struct PairArguments {
@@ -26,4 +26,4 @@ void check_pair(const PairArguments& pair);
 /// At rest, in the order asked for. The scene must outlive them.
 std::vector<Session> open_sessions(const Scene& scene, const RenderSettings& settings, const PairArguments& pair);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -5,7 +5,7 @@
 #include "error.h"
 #include "settings/names.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 void add_resampling_options(CLI::App& command, RenderArguments& arguments) {
     ResamplingSettings& settings = arguments.request.settings.resampling;
@@ -59,4 +59,4 @@ void refuse_idle_resampling_options(const RenderArguments& arguments, bool resam
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

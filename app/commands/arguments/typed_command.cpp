@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::string typed_command(const CLI::App& command, const std::vector<std::string
     return "diptych " + command.get_name() + positional + options + " " + instead;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -4,7 +4,7 @@
 #include "commands/arguments/arguments.h"
 #include "error.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -57,4 +57,4 @@ void add_viewpoint_options(CLI::App& command, RenderArguments& arguments) {
                [&](const glm::dvec3& numbers) { request.sun = sun_of(numbers); });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -15,7 +15,7 @@
 #include "session/scene_setup.h"
 #include "settings/names.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -156,4 +156,4 @@ void add_bench(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return run_bench(*options); }; });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

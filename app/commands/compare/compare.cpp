@@ -17,7 +17,7 @@
 #include "image/tonemap_image.h"
 #include "console/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -272,4 +272,4 @@ void add_compare(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return run_compare(*options); }; });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -72,4 +72,4 @@ Verdict judge(const Difference& difference, const LayeredImage& a, const Layered
     return verdict;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

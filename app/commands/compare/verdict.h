@@ -6,7 +6,7 @@
 
 #include "image/metrics.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// At or beyond it, in any channel, a difference of the means is not put down to noise.
 inline constexpr double noise_limit = 4;
@@ -24,4 +24,4 @@ double largest_z(const Difference& difference);
 /// The metadata say whether both drew the same random numbers.
 Verdict judge(const Difference& difference, const LayeredImage& a, const LayeredImage& b);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

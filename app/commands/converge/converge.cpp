@@ -20,7 +20,7 @@
 #include "session/open_session.h"
 #include "session/scene_setup.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -189,4 +189,4 @@ void add_converge(CLI::App& app, Run& run) {
     });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

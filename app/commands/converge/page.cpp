@@ -11,7 +11,7 @@
 #include "measure/converge/method.h"
 #include "page_texts.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -110,4 +110,4 @@ void write_page(const nlohmann::ordered_json& summary, const ConvergeState& stat
                                                           {"SCRIPT", std::string(page_text("page.js"))}}));
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -5,7 +5,7 @@
 
 #include "measure/converge/state.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// index.html in the folder: summary and pictures within one file that needs no other. Throws Error.
 void write_page(const nlohmann::ordered_json& summary, const ConvergeState& state);
@@ -14,4 +14,4 @@ void write_page(const nlohmann::ordered_json& summary, const ConvergeState& stat
 /// False, with a warning, where there is no gnuplot or it fails. Throws Error.
 bool write_plots(const nlohmann::ordered_json& summary, const ConvergeState& state);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

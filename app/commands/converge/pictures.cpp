@@ -8,7 +8,7 @@
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -74,4 +74,4 @@ void write_page_pictures(const std::vector<Method>& methods, const ReferencePict
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

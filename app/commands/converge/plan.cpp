@@ -15,7 +15,7 @@
 #include "console/report.h"
 #include "commands/verify/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -243,4 +243,4 @@ void claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& 
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -9,7 +9,7 @@
 #include "measure/converge/method.h"
 #include "measure/converge/reference.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// The options as typed; see add_converge for what they mean.
 struct ConvergeOptions : ConvergeSettings {
@@ -44,4 +44,4 @@ void claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& 
 /// The picture that --reference names, of the given size with three channels. Throws Error.
 ReferencePicture load_reference(const std::string& path, int width, int height);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -10,7 +10,7 @@
 #include "image/atomic_file.h"
 #include "console/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -116,4 +116,4 @@ bool write_plots(const nlohmann::ordered_json& summary, const ConvergeState& sta
     return run_gnuplot(state.folder());
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -6,7 +6,7 @@
 #include "error.h"
 #include "image/image_file.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 ReferencePicture load_reference(const std::string& path, int width, int height) {
     LayeredImage image = read_image(path);
@@ -26,4 +26,4 @@ ReferencePicture load_reference(const std::string& path, int width, int height) 
     return reference_of(std::move(image), path);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -9,7 +9,7 @@
 #include "settings/names.h"
 #include "console/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -64,7 +64,7 @@ const char* name_of(TargetTime::Kind kind) {
 /// As results.jsonl has it; null where there is none.
 template <class Event>
 Json event_to_json(const Method& method, const std::optional<Event>& event) {
-    return event ? diptych::to_json(method.name, *event) : Json();
+    return event ? core::to_json(method.name, *event) : Json();
 }
 
 Json to_json(const MethodSummary& summary) {
@@ -73,8 +73,8 @@ Json to_json(const MethodSummary& summary) {
     Json json;
     json["method"] = summary.method->name;
     json["backend"] = request.backend;
-    json["integrator"] = oracle ? "oracle/" + request.oracle_mode : diptych::name_of(request.settings.integrator);
-    json["sampler"] = oracle ? "independent" : diptych::name_of(request.settings.sampler);
+    json["integrator"] = oracle ? "oracle/" + request.oracle_mode : core::name_of(request.settings.integrator);
+    json["sampler"] = oracle ? "independent" : core::name_of(request.settings.sampler);
     json["runs"] = summary.runs;
     json["first_seed"] = request.settings.seed;
     json["setup"] = event_to_json(*summary.method, summary.setup);
@@ -174,4 +174,4 @@ void print_summary(const ConvergeOptions& options, const ConvergeSummary& summar
     fmt::print("Slope of the MSE over the samples (-1: independent samples). Page: {}/index.html\n", options.folder);
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,7 +7,7 @@
 #include "commands/converge/plan.h"
 #include "measure/converge/summary.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Everything, as docs/converge.md describes it.
 nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const ConvergeSummary& summary,
@@ -18,4 +18,4 @@ std::string summary_to_csv(const ConvergeSummary& summary);
 
 void print_summary(const ConvergeOptions& options, const ConvergeSummary& summary, const ReferencePicture& reference);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -12,7 +12,7 @@
 #include "generate/generate.h"
 #include "gltf/write.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -125,4 +125,4 @@ void add_generate(CLI::App& app, Run& run) {
     });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

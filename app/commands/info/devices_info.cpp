@@ -19,7 +19,7 @@
 #include "device/devices.h"
 #endif
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -93,4 +93,4 @@ int print_devices(bool json) {
     return exit_done;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -17,7 +17,7 @@
 #include "pose/pose.h"
 #include "session/scene_setup.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -229,4 +229,4 @@ void add_info(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return run_info(*options); }; });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -16,7 +16,7 @@
 #include "console/report.h"
 #include "commands/render/tev_packets.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -131,4 +131,4 @@ void LiveView::send(const void* data, std::size_t size) {
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

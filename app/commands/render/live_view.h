@@ -5,7 +5,7 @@
 
 #include "image/image.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 class LiveView {
 public:
@@ -27,4 +27,4 @@ private:
     std::string shown_;  // name and size of the picture that the viewer has
 };
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

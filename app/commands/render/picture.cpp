@@ -13,7 +13,7 @@
 #include "settings/names.h"
 #include "console/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -130,4 +130,4 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
     return picture;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

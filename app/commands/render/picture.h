@@ -10,7 +10,7 @@
 #include "render/save_film.h"
 #include "render/session.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 struct Picture {
     nlohmann::ordered_json json;
@@ -32,4 +32,4 @@ struct PictureAudience {
 Picture render_picture(Session& session, const RenderRequest& request, const std::atomic<bool>& cancel,
                        const PictureAudience& audience);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -19,7 +19,7 @@
 #include "pose/pose.h"
 #include "session/scene_setup.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -191,4 +191,4 @@ void add_render(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return run_render(*options); }; });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

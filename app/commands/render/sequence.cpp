@@ -10,7 +10,7 @@
 #include "session/open_session.h"
 #include "console/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 std::string frame_path(const std::string& output, std::uint32_t frame, std::uint32_t frames) {
     const std::size_t name = output.find_last_of('/') == std::string::npos ? 0 : output.find_last_of('/') + 1;
@@ -70,4 +70,4 @@ int render_sequence(const Scene& scene, const RenderRequest& request, bool json,
     return interrupted ? exit_interrupted : exit_done;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

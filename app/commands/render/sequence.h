@@ -7,7 +7,7 @@
 #include "render/request.h"
 #include "scene/scene.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 class LiveView;
 
@@ -20,4 +20,4 @@ std::string frame_path(const std::string& output, std::uint32_t frame, std::uint
 /// is shown each of them. Throws Error.
 int render_sequence(const Scene& scene, const RenderRequest& request, bool json, LiveView* live);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cstring>
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -81,4 +81,4 @@ TevPacket tev_update_image(const std::string& name, const Image& image, int firs
     return packet.finish();
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

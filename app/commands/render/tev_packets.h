@@ -9,7 +9,7 @@
 
 #include "image/image.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 using TevPacket = std::vector<std::uint8_t>;
 
@@ -19,4 +19,4 @@ TevPacket tev_create_image(const std::string& name, int width, int height);
 /// UpdateImage in its third version (kind 6): `rows` rows of `image` from `first_row` down; three channels, linear.
 TevPacket tev_update_image(const std::string& name, const Image& image, int first_row, int rows);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

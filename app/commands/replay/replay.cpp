@@ -11,7 +11,7 @@
 #include "console/report.h"
 #include "session/scene_setup.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -106,4 +106,4 @@ void add_replay(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return run_replay(*options); }; });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

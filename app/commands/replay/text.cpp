@@ -7,7 +7,7 @@
 
 #include "measure/replay_rows.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -109,4 +109,4 @@ nlohmann::ordered_json replay_json(const Replay& replay, const shared::RenderCon
     return json;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,11 +7,11 @@
 #include "measure/replay.h"
 #include "pack/packed_scene.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// A column a backend and one of their differences, vertex by vertex; lines end with a line break.
 std::string replay_text(const Replay& replay, const shared::RenderConstants& constants);
 
 nlohmann::ordered_json replay_json(const Replay& replay, const shared::RenderConstants& constants);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

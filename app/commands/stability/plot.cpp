@@ -6,7 +6,7 @@
 
 #include "commands/stability/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -153,4 +153,4 @@ std::string plot_case(const StabilityReport& report, const MeasuredCase& measure
     return svg + "</svg>\n";
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,7 +7,7 @@
 #include "image/atomic_file.h"
 #include "console/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -176,4 +176,4 @@ std::vector<std::string> write_report(const StabilityReport& report, const std::
     return files;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -7,7 +7,7 @@
 
 #include "stability_cases.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 struct MeasuredCase {
     const stability::Case* which;
@@ -40,4 +40,4 @@ std::vector<std::string> write_report(const StabilityReport& report, const std::
 /// Error over the parameter, one curve a backend, the bound as a line.
 std::string plot_case(const StabilityReport& report, const MeasuredCase& measured);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

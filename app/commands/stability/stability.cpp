@@ -13,7 +13,7 @@
 #include "console/step_line.h"
 #include "commands/verify/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -118,4 +118,4 @@ void add_stability(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return run_stability(*options); }; });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

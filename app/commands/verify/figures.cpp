@@ -11,7 +11,7 @@
 #include "stats/multiple_testing.h"
 #include "commands/verify/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -159,4 +159,4 @@ std::vector<std::string> write_suite_figures(const std::string& folder, const Su
     return paths;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

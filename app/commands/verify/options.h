@@ -9,7 +9,7 @@
 #include "commands/arguments/arguments.h"
 #include "measure/verify_settings.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// The options as typed; see add_verify for what they mean.
 struct VerifyOptions : VerifySettings {
@@ -39,4 +39,4 @@ struct VerifyOptions : VerifySettings {
 /// among them would heed.
 std::vector<PairName> plan_pairs(const VerifyOptions& options);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

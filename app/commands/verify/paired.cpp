@@ -17,7 +17,7 @@
 #include "console/report.h"
 #include "session/scene_setup.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -166,4 +166,4 @@ int run_paired(RenderArguments arguments, const PairArguments& pair, const Paire
     return fails ? exit_check_failed : exit_done;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

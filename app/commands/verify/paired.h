@@ -8,7 +8,7 @@
 #include "commands/arguments/backend_pair.h"
 #include "settings/settings.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 struct PairedOptions {
     std::vector<Integrator> integrators{Integrator::path};
@@ -22,4 +22,4 @@ struct PairedOptions {
 /// where an integrator fails.
 int run_paired(RenderArguments arguments, const PairArguments& pair, const PairedOptions& options);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

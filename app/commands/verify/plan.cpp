@@ -8,7 +8,7 @@
 #include "settings/names.h"
 #include "commands/verify/options.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::vector<PairName> plan_pairs(const VerifyOptions& options) {
     return pairs;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -20,7 +20,7 @@
 #include "console/step_line.h"
 #include "commands/verify/report.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -389,4 +389,4 @@ int verify_random(const VerifyOptions& options) {
     return fails ? exit_check_failed : exit_done;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -3,7 +3,7 @@
 
 #include "commands/verify/options.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// Adds --random to `command`, after all other options of verify.
 void add_random_option(CLI::App& command, VerifyOptions& options);
@@ -11,4 +11,4 @@ void add_random_option(CLI::App& command, VerifyOptions& options);
 /// Returns the exit code. Throws Error and NoDevice.
 int verify_random(const VerifyOptions& options);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -9,7 +9,7 @@
 #include "stats/kolmogorov_smirnov.h"
 #include "commands/arguments/typed_command.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -204,4 +204,4 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
     return json;
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

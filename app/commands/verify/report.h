@@ -7,7 +7,7 @@
 #include "commands/verify/options.h"
 #include "measure/verify_suite.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// FAIL where one pair fails, else INCONCLUSIVE where one is.
 Verdict verdict_of(const SuiteResult& suite);
@@ -26,4 +26,4 @@ std::vector<std::string> write_suite_figures(const std::string& folder, const Su
 /// Makes the folder where it is missing, and refuses one that cannot be written to.
 void prepare_folder(const std::string& folder);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -6,7 +6,7 @@
 
 #include "error.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 void add_sequence_options(CLI::App& command, VerifyOptions& options, CLI::Option& paired) {
     RenderRequest& request = options.arguments.request;
@@ -58,4 +58,4 @@ void resolve_frames(VerifyOptions& options) {
     }
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -5,7 +5,7 @@
 
 #include "commands/verify/options.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 /// --frame, --fps, --start, --orbit, --frame-spp; none of them goes with `paired`.
 void add_sequence_options(CLI::App& command, VerifyOptions& options, CLI::Option& paired);
@@ -13,4 +13,4 @@ void add_sequence_options(CLI::App& command, VerifyOptions& options, CLI::Option
 /// Puts options.frames in order, and the default in place where a sequence is asked for without them. Throws Error.
 void resolve_frames(VerifyOptions& options);
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -20,7 +20,7 @@
 #include "commands/verify/report.h"
 #include "commands/verify/sequence.h"
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -275,4 +275,4 @@ void add_verify(CLI::App& app, Run& run) {
     });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

@@ -19,7 +19,7 @@
 #include "window/window.h"
 #endif
 
-namespace diptych::app {
+namespace diptych::core::app {
 
 namespace {
 
@@ -187,4 +187,4 @@ void add_view(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return run_view(*options); }; });
 }
 
-}  // namespace diptych::app
+}  // namespace diptych::core::app

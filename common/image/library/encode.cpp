@@ -5,7 +5,7 @@
 
 #include "image/library/fail.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 ImageLibrary::Bytes encode(const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
@@ -47,4 +47,4 @@ ImageLibrary::Bytes png_bytes(const ByteImage& image, bool srgb) {
     return encode("png", spec, OIIO::TypeUInt8, image.data.data());
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

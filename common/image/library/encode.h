@@ -4,11 +4,11 @@
 
 #include "image/image_library.h"
 
-namespace diptych {
+namespace diptych::core {
 
 ImageLibrary::Bytes exr_bytes(const Image& image, const std::vector<std::string>& channel_names,
                               const std::map<std::string, std::string>& attributes);
 ImageLibrary::Bytes hdr_bytes(const Image& image);
 ImageLibrary::Bytes png_bytes(const ByteImage& image, bool srgb);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include "image/library/encode.h"
 #include "image/library/picture_file.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 class OpenImageIO final : public ImageLibrary {
@@ -29,11 +29,11 @@ public:
 };
 
 }  // namespace
-}  // namespace diptych
+}  // namespace diptych::core
 
-extern "C" [[gnu::visibility("default")]] const diptych::ImageLibrary* diptych_image_library(const char* version);
+extern "C" [[gnu::visibility("default")]] const diptych::core::ImageLibrary* diptych_image_library(const char* version);
 
-const diptych::ImageLibrary* diptych_image_library(const char* version) {
-    static const diptych::OpenImageIO library;
+const diptych::core::ImageLibrary* diptych_image_library(const char* version) {
+    static const diptych::core::OpenImageIO library;
     return std::string_view(version) == DIPTYCH_VERSION ? &library : nullptr;
 }

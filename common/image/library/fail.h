@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace diptych {
+namespace diptych::core {
 
 /// OpenImageIO's message may have several lines, or none.
 [[noreturn]] inline void fail_by_library(const std::string& message) {
@@ -11,4 +11,4 @@ namespace diptych {
     throw std::runtime_error(line.empty() ? "unknown reason" : line);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -10,7 +10,7 @@
 
 #include "image/library/fail.h"
 
-namespace diptych {
+namespace diptych::core {
 namespace {
 
 PictureHeader header_of(const OIIO::ImageSpec& spec, bool exr) {
@@ -105,4 +105,4 @@ std::unique_ptr<PictureFile> open_picture(const std::string& name, std::span<con
     return std::make_unique<OpenPicture>(std::move(memory), std::move(input));
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

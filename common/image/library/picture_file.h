@@ -3,9 +3,9 @@
 
 #include "image/image_library.h"
 
-namespace diptych {
+namespace diptych::core {
 
 std::unique_ptr<PictureFile> open_picture(const std::filesystem::path& path);
 std::unique_ptr<PictureFile> open_picture(const std::string& name, std::span<const std::uint8_t> bytes);
 
-}  // namespace diptych
+}  // namespace diptych::core

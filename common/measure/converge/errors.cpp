@@ -3,7 +3,7 @@
 #include "image/metrics.h"
 #include "render/film_statistics.h"
 
-namespace diptych {
+namespace diptych::core {
 
 ErrorRow errors_of(const Film& film, const ReferencePicture& reference) {
     const Difference difference = compare_images(develop(film), reference.image);
@@ -30,4 +30,4 @@ std::vector<float> deviations_of(const Film& film, const ReferencePicture& refer
     return deviations;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include "measure/converge/reference.h"
 #include "render/film.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// One render's errors against the reference once it had so many samples a pixel: a line of results.csv.
 struct ErrorRow {
@@ -32,4 +32,4 @@ ErrorRow errors_of(const Film& film, const ReferencePicture& reference);
 /// Every value less the reference's.
 std::vector<float> deviations_of(const Film& film, const ReferencePicture& reference);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -3,7 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -101,4 +101,4 @@ RenderedReference rendered_reference_of(const Json& json) {
     return {json.at("method"), json.at("device"), json.at("spp"), json.at("blocks"), number(json, "device_seconds")};
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

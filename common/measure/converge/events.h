@@ -8,7 +8,7 @@
 
 #include "measure/converge/errors.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// What building a method took, before its first sample.
 struct MethodSetup {
@@ -49,4 +49,4 @@ MethodPicture picture_of(const nlohmann::ordered_json& event);
 RenderedReference rendered_reference_of(const nlohmann::ordered_json& event);
 std::vector<ErrorRow> run_of(const nlohmann::ordered_json& event);
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include "measure/converge/picture.h"
 #include "measure/converge/reference_blocks.h"
 
-namespace diptych {
+namespace diptych::core {
 
 int converge_steps(const ConvergeSettings& settings, std::size_t methods) {
     return static_cast<int>(reference_blocks + methods * (settings.runs + 2));
@@ -148,4 +148,4 @@ void ConvergeMeasurement::note_setup(std::size_t index) {
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

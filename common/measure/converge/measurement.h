@@ -10,7 +10,7 @@
 #include "measure/converge/summary.h"
 #include "measure/step_hook.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// What is rendered, by what, and what it is measured against: a picture that is given, or what renders one.
 struct ConvergeSubject {
@@ -61,4 +61,4 @@ private:
     std::optional<ReferencePicture> reference_;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

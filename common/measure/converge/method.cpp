@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::core {
 
 std::string file_stem(const std::string& method) {
     std::string stem = method;
@@ -11,4 +11,4 @@ std::string file_stem(const std::string& method) {
     return stem;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 #include "render/request.h"
 #include "render/seeds.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct ConvergeSettings {
     std::uint32_t runs = 16;      // of each method
@@ -41,4 +41,4 @@ struct Method {
 /// ':' and '/' become '-'.
 std::string file_stem(const std::string& method);
 
-}  // namespace diptych
+}  // namespace diptych::core

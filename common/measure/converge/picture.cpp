@@ -8,7 +8,7 @@
 #include "image/metrics.h"
 #include "render/metadata.h"
 
-namespace diptych {
+namespace diptych::core {
 
 bool render_picture(MethodRunner& runner, double seconds, const ReferencePicture& reference, const std::string& program,
                     ConvergeState& state, const std::atomic<bool>& cancel) {
@@ -47,4 +47,4 @@ bool render_picture(MethodRunner& runner, double seconds, const ReferencePicture
                       });
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

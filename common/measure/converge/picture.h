@@ -5,7 +5,7 @@
 
 #include "measure/converge/runner.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Renders the picture of a method after about so many seconds, to the nearest whole sample, by the speed of its runs:
 /// pictures/NAME.exr in the folder. Nothing to do where there is one for that time. `program` is what it says that made
@@ -13,4 +13,4 @@ namespace diptych {
 bool render_picture(MethodRunner& runner, double seconds, const ReferencePicture& reference, const std::string& program,
                     ConvergeState& state, const std::atomic<bool>& cancel);
 
-}  // namespace diptych
+}  // namespace diptych::core

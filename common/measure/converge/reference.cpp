@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace diptych {
+namespace diptych::core {
 
 ReferencePicture reference_of(LayeredImage image, std::string method) {
     ReferencePicture reference;
@@ -48,4 +48,4 @@ ReferenceNoise noise_of(const ReferencePicture& reference) {
     return noise;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

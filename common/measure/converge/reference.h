@@ -7,7 +7,7 @@
 
 #include "image/layered_image.h"
 
-namespace diptych {
+namespace diptych::core {
 
 struct ReferencePicture {
     LayeredImage image;           // with standard errors, where they are known
@@ -35,4 +35,4 @@ ReferenceNoise noise_of(const ReferencePicture& reference);
 /// it was made. `method`: a file, or what rendered it.
 ReferencePicture reference_of(LayeredImage image, std::string method);
 
-}  // namespace diptych
+}  // namespace diptych::core

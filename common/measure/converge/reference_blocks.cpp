@@ -13,7 +13,7 @@
 #include "render/film_statistics.h"
 #include "render/metadata.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::optional<ReferencePicture> render_reference(MethodRunner& runner, std::uint
     return reference_of(std::move(image), method.name);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -7,7 +7,7 @@
 
 #include "measure/converge/runner.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// Renders what is missing of it, `spp` samples a block, and leaves reference.exr in the folder; a finished one is read
 /// back. `program` is what the picture says that made it. Nothing where `cancel` came in between: the blocks so far are
@@ -16,4 +16,4 @@ std::optional<ReferencePicture> render_reference(MethodRunner& runner, std::uint
                                                  ConvergeState& state, const std::atomic<bool>& cancel,
                                                  const std::function<void(std::uint32_t)>& begin_block);
 
-}  // namespace diptych
+}  // namespace diptych::core

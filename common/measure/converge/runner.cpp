@@ -4,7 +4,7 @@
 
 #include "clock.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::uint32_t MethodRunner::samples_within(double seconds, const std::atomic<boo
     return fits;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -10,7 +10,7 @@
 #include "measure/converge/state.h"
 #include "measure/open_session.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// A run's film after `spp` samples a pixel, and the seconds until then, of rendering alone.
 using Checkpoint = std::function<void(std::uint32_t spp, const Film& film, double device_seconds, double wall_seconds)>;
@@ -52,4 +52,4 @@ private:
     std::map<std::uint32_t, Entry> entries_;  // by the count that it is laid out for; 0 where that does not matter
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -15,7 +15,7 @@
 #include "image/atomic_file.h"
 #include "measure/converge/method.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -207,4 +207,4 @@ void ConvergeState::save_sums(const std::string& method, const std::map<std::uin
     write_file_atomically(sums_path(method), bytes);
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

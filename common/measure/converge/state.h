@@ -10,7 +10,7 @@
 #include "measure/converge/events.h"
 #include "stats/bias_squared.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// results.jsonl holds a line for each event: "scene" (how long it took to load), "setup" (what building a method took),
 /// "limit" (how many samples fit the time), "reference", "run" (the ErrorRows of one run), "picture". Lines are only
@@ -62,4 +62,4 @@ private:
     std::vector<ErrorRow> rows_;
 };
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include "settings/names.h"
 #include "stats/multiple_testing.h"
 
-namespace diptych {
+namespace diptych::core {
 
 namespace {
 
@@ -194,4 +194,4 @@ ConvergeSummary summarize_results(const ConvergeSettings& settings, const std::v
     return summary;
 }
 
-}  // namespace diptych
+}  // namespace diptych::core

@@ -9,7 +9,7 @@
 #include "measure/converge/state.h"
 #include "stats/convergence.h"
 
-namespace diptych {
+namespace diptych::core {
 
 /// A method after so many samples, over its runs.
 struct CheckpointSummary {
@@ -58,4 +58,4 @@ inline constexpr double bias_alpha = 0.01;
 ConvergeSummary summarize_results(const ConvergeSettings& settings, const std::vector<Method>& methods,
                                   const ReferencePicture& reference, const ConvergeState& state);
 
-}  // namespace diptych
+}  // namespace diptych::core
