@@ -1,0 +1,41 @@
+// The library's exceptions.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "diptych/export.h"
+
+DIPTYCH_BEGIN
+
+/// Bad input, a setting out of range, or a file that cannot be read or written. `what()` is one line that names the
+/// file, the object in it and the reason. Whatever threw it has changed nothing, or says what it left.
+class DIPTYCH_EXPORT Error : public std::runtime_error {
+public:
+    explicit Error(const std::string& message);
+    Error(const Error&);
+    ~Error() override;
+};
+
+/// The machine has no device that the backend needs. `what()` lists what is missing.
+class DIPTYCH_EXPORT NoDevice : public Error {
+public:
+    using Error::Error;
+    ~NoDevice() override;
+};
+
+/// The device was lost while it worked. A film taken before stays whole; the session can only be destroyed.
+class DIPTYCH_EXPORT DeviceLost : public Error {
+public:
+    using Error::Error;
+    ~DeviceLost() override;
+};
+
+/// A stop token ended a call that has no partial result (verify). A render that is stopped throws nothing.
+class DIPTYCH_EXPORT Interrupted : public Error {
+public:
+    using Error::Error;
+    ~Interrupted() override;
+};
+
+DIPTYCH_END

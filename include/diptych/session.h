@@ -1,0 +1,95 @@
+// A scene on one backend.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "diptych/film.h"
+#include "diptych/scene.h"
+#include "diptych/settings.h"
+
+DIPTYCH_BEGIN
+
+/// What a backend can do beside rendering a picture at rest.
+struct Capabilities {
+    bool temporal_reuse = false;  // restir goes on from moment to moment
+    bool settings_change = false; // set_settings keeps what the settings do not touch, instead of building anew
+    bool replay = false;          // paths can be recorded
+};
+
+struct Progress {
+    std::uint32_t spp = 0;  // done, of every pixel
+    double seconds = 0;
+    double eta_seconds = 0;  // infinite while unknown
+    double samples_per_second = 0;
+    double rays_per_second = 0;
+    std::optional<double> relmse;  // estimate
+};
+
+struct RenderOptions {
+    std::function<void(const Progress&)> progress;  // about every quarter of a second, from the thread that renders
+    std::stop_token stop;                           // may be set from any thread
+    double seconds = 0;                             // stop after so long; 0 is no limit
+    double relmse = 0;                              // stop at this estimate; needs standard_error; 0 is no limit
+};
+
+struct RenderResult {
+    std::uint32_t spp = 0;  // that every pixel was given by this call
+    double seconds = 0;
+    bool stopped = false;  // by the token, before the end
+};
+
+struct SessionOptions {
+    std::function<void(const std::string& line)> warnings;  // what was left out of the scene, once each
+};
+
+/// Used by one thread at a time, and may be moved between threads. Several sessions run at once. A session that threw
+/// DeviceLost can only be destroyed; all else leaves it usable.
+class DIPTYCH_EXPORT Session {
+public:
+    /// Builds acceleration structures and pipelines. Throws NoDevice and Error.
+    Session(const Scene& scene, const BackendChoice& backend = {}, const Settings& settings = {},
+            const SessionOptions& options = {});
+    Session(Session&&) noexcept;
+    Session& operator=(Session&&) noexcept;
+    ~Session();
+
+    /// Adds samples first .. first+count-1 to every pixel: consecutive calls have the bits of one. The film so far
+    /// stays whole whatever happens. Throws Error where samples were rendered before, and DeviceLost.
+    RenderResult render(std::uint32_t first, std::uint32_t count, const RenderOptions& options = {});
+
+    /// The next `count` samples; 0 is no limit, where the options set one.
+    RenderResult render(std::uint32_t count, const RenderOptions& options = {});
+
+    /// A copy of what has been rendered.
+    Film film() const;
+
+    /// Empties the film, with another seed where one is given. What follows has the bits of a new session.
+    void restart(std::optional<std::uint32_t> seed = {});
+
+    /// Puts the scene at a moment of its animations, in seconds, and begins another picture. Only what moves is
+    /// updated. restir goes on from the picture before.
+    void pose(double seconds);
+
+    /// What the scene is seen through from now on; begins another picture.
+    void set_camera(const Camera& camera);
+    /// Begins another picture under other settings. What they do not touch stays.
+    void set_settings(const Settings& settings);
+
+    const Settings& settings() const;
+    Backend backend() const;
+    std::string device() const;  // the device's own name
+    Capabilities capabilities() const;
+
+private:
+    friend struct Impl;
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+DIPTYCH_END
