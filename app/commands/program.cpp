@@ -5,7 +5,7 @@
 #include <new>
 #include <string>
 
-#include "session/backend.h"
+#include "session/make_renderer.h"
 #include "commands/command.h"
 #include "error.h"
 #include "commands/program.h"

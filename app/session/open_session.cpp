@@ -5,7 +5,7 @@
 
 #include "console/report.h"
 #include "pose/pose.h"
-#include "session/backend.h"
+#include "session/make_renderer.h"
 
 namespace diptych::core::app {
 

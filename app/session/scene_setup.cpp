@@ -13,11 +13,10 @@
 #include "near_miss.h"
 #include "console/report.h"
 #include "pose/clips.h"
-#include "scene/default_camera.h"
+#include "scene/completion.h"
 #include "scene/environment_load.h"
 #include "gltf/import.h"
 #include "render/frames.h"
-#include "scene/own_light.h"
 
 namespace diptych::core::app {
 
@@ -75,12 +74,8 @@ void find_environment(Scene& scene, RenderRequest& request) {
         scene.environment = neutral_sky();
     } else if (!request.environment.empty()) {
         scene.environment = requested_environment(request.environment, scene.warnings);
-    } else if (const OwnLight light = request.sun ? OwnLight::enough : own_light(scene); light != OwnLight::enough) {
-        scene.environment = neutral_sky();
-        request.adds_neutral_sky = true;
-        const char* reason =
-            light == OwnLight::absent ? "the scene has no light" : "what emits in the scene is too weak to light it";
-        scene.warnings.add(fmt::format("{}: lit by a neutral sky (--env none leaves it out)", reason), scene.name);
+    } else if (!request.sun) {
+        request.adds_neutral_sky = add_missing_light(scene, " (--env none leaves it out)");
     }
 }
 
@@ -114,11 +109,9 @@ int find_camera(const Scene& scene, const std::string& wanted) {
 }
 
 void choose_camera(Scene& scene, RenderRequest& request) {
-    if (scene.cameras.empty() && (request.camera.empty() || request.camera == "0")) {
-        scene.cameras.push_back(frame_scene(scene));
-        if (!request.viewpoint.eye) {
-            scene.warnings.add("the scene has no camera: seen by one that frames it", scene.name);
-        }
+    const bool fits = request.camera.empty() || request.camera == "0";
+    if (fits && add_missing_camera(scene) && !request.viewpoint.eye) {
+        scene.warnings.add("the scene has no camera: seen by one that frames it", scene.name);
     }
     if (!request.camera.empty()) {
         request.settings.camera = find_camera(scene, request.camera);

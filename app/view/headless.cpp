@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include "clock.h"
-#include "session/backend.h"
+#include "session/make_renderer.h"
 #include "console/exit_codes.h"
 #include "error.h"
 #include "image/image_file.h"

@@ -10,15 +10,19 @@ void compare_paths(Replay& replay) {
     }
 }
 
+void add_path(Replay& replay, Session& session, const shared::PathQuery& query) {
+    const std::size_t camera = static_cast<std::size_t>(session.settings().camera);
+    replay.origin = glm::dvec3(session.scene().cameras[camera].camera_to_world[3]);
+    replay.backends.push_back(session.renderer().backend());
+    replay.devices.push_back(session.renderer().device());
+    replay.paths.push_back(session.renderer().record_paths({&query, 1}).front());
+}
+
 Replay replay_path(std::vector<Session>& sessions, const shared::PathQuery& query, double tolerance) {
     Replay replay;
     replay.tolerance = tolerance;
     for (Session& session : sessions) {
-        const std::size_t camera = static_cast<std::size_t>(session.settings().camera);
-        replay.origin = glm::dvec3(session.scene().cameras[camera].camera_to_world[3]);
-        replay.backends.push_back(session.renderer().backend());
-        replay.devices.push_back(session.renderer().device());
-        replay.paths.push_back(session.renderer().record_paths({&query, 1}).front());
+        add_path(replay, session, query);
     }
     compare_paths(replay);
     return replay;

@@ -23,6 +23,10 @@ struct Replay {
 /// Sets where the first two part, by the tolerance.
 void compare_paths(Replay& replay);
 
+/// Adds the path that the query names, traced in a session of a scene at rest. Throws Error where its backend keeps no
+/// record of its paths.
+void add_path(Replay& replay, Session& session, const shared::PathQuery& query);
+
 /// Traces the path that the query names in every session, all of one scene at rest. `tolerance`: differences up to here
 /// are rounding. Throws Error where a backend keeps no record of its paths.
 Replay replay_path(std::vector<Session>& sessions, const shared::PathQuery& query, double tolerance);

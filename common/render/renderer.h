@@ -18,6 +18,14 @@ namespace diptych::core {
 
 struct PackedScene;
 
+/// What a renderer can do beside pictures at rest; what it cannot do throws Error.
+struct Capabilities {
+    bool chains = false;        // clear_film: pictures go on from one another
+    bool reconfigures = false;  // reconfigure
+    bool reservoirs = false;    // watch_reservoirs
+    bool paths = false;         // record_paths and summarize_paths
+};
+
 /// Seconds spent before the first sample, and bytes held.
 struct RendererCosts {
     double build_seconds = 0;              // acceleration structures and uploads
@@ -55,6 +63,7 @@ public:
     /// The device's own name.
     virtual std::string device() const = 0;
     virtual RendererCosts costs() const = 0;
+    virtual Capabilities capabilities() const { return {}; }
 
     /// Adds samples first .. first+count-1 to every pixel. Stops early, between slices of at most about 200 ms, once
     /// `cancel` is set; the film is valid then too, since every pixel counts its own samples.

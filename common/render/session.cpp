@@ -23,7 +23,7 @@ Session::Session(const Scene& scene, const RenderSettings& settings, MakeRendere
     pack_anew();
     say("building acceleration structures and pipelines");
     renderer_ = make_(*own_, *packed_, settings_);
-    chained_ = chains_frames(settings_) && renderer_->backend() != "oracle";
+    chained_ = chains_frames(settings_) && renderer_->capabilities().chains;
 }
 
 void Session::say(const char* what) const {
@@ -128,7 +128,18 @@ void Session::set(const RenderSettings& settings, const Moment& moment) {
         pack_at_rest();
     }
     pack_seconds_ = now_seconds() - begin;
-    chained_ = own_ && chains_frames(settings_) && renderer_->backend() != "oracle";
+    chained_ = own_ && chains_frames(settings_) && renderer_->capabilities().chains;
+    begin_picture(false);
+}
+
+void Session::edit(const Scene& scene) {
+    const double begin = now_seconds();
+    source_ = &scene;
+    if (own_) {
+        *own_ = scene;
+    }
+    pack_at_rest();
+    pack_seconds_ = now_seconds() - begin;
     begin_picture(false);
 }
 

@@ -62,6 +62,10 @@ public:
     /// Begins a picture under other settings, history gone; the scene stays, and what does not depend on them with it.
     void set(const RenderSettings& settings, const Moment& moment);
 
+    /// Begins a picture of an edited copy of the scene, which must live as long: the same but for lights, cameras, the
+    /// environment, and of materials all that editable_in_place allows.
+    void edit(const Scene& scene);
+
     /// Begins a picture with another seed, history gone.
     void restart(std::uint32_t seed);
 
@@ -102,5 +106,9 @@ private:
     double pack_seconds_ = 0;
     double move_seconds_ = 0;
 };
+
+/// Whether a renderer of one scene can go on with the other: the same meshes and instances, each hit by the same rays,
+/// and light from the same triangles. `edited` is a copy of `scene`, whose meshes are not compared.
+bool editable_in_place(const Scene& scene, const Scene& edited);
 
 }  // namespace diptych::core

@@ -36,6 +36,7 @@ public:
     std::string backend() const override { return "cpu"; }
     std::string device() const override { return cpu_name(); }
 
+    Capabilities capabilities() const override { return {true, true, true, true}; }
     RendererCosts costs() const override {
         const std::uint64_t film = film_.pixels.size() * sizeof(shared::FilmPixel) +
                                    film_.moments.size() * sizeof(shared::FilmMoments) +

@@ -25,6 +25,10 @@ struct FilmInfo {
     double seconds = 0;           // of rendering
 };
 
+// The implementation's.
+struct Impl;
+struct FilmData;
+
 /// A value: sums, second moments and first hits of all pixels, and what they develop to. Copies share memory. Arrays
 /// are row-major, row 0 on top; a span lives as long as the film or a copy of it.
 class DIPTYCH_EXPORT Film {
@@ -62,9 +66,8 @@ public:
 
 private:
     friend struct Impl;
-    struct Data;
-    explicit Film(std::shared_ptr<const Data> data);
-    std::shared_ptr<const Data> data_;
+    explicit Film(std::shared_ptr<const FilmData> data);
+    std::shared_ptr<const FilmData> data_;
 };
 
 /// Width * height * 3 display values in [0, 1], as save writes them to a .png.

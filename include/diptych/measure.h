@@ -80,14 +80,14 @@ struct ReplayOptions {
 };
 
 struct ReplayVertex {
-    Point position{};  // world space
-    Vec3 radiance{};   // that this vertex adds to the path's
-    std::string surface;
+    Point position{};   // where the ray ended, world space of the file
+    Vec3 emission{};    // that it adds to the path's radiance, throughput and MIS weight included
+    Vec3 throughput{};  // of what comes after
 };
 
 struct ReplayResult {
     std::array<Vec3, 2> radiance{};       // of the whole path in both sessions
-    std::array<std::size_t, 2> vertices{};
+    std::array<std::vector<ReplayVertex>, 2> vertices;
     std::optional<std::size_t> parts_at;  // vertex from which the two paths differ
     std::string text;                     // "They part at vertex 2: …" in one line
 };

@@ -143,7 +143,9 @@ struct MeshData {
     int material = none;                                      // none: a default material is added
 };
 
-struct Impl;  // the implementation's view of scenes, sessions and films
+// The implementation's.
+struct Impl;
+struct SceneData;
 
 /// A handle: copies of it are the same scene, which lives as long as the last of them, or of the sessions that render
 /// it. What its references give may be edited at any time between renders; a session sees edits at its next render. Not
@@ -187,14 +189,14 @@ public:
 
 private:
     friend struct Impl;
-    struct Data;
-    std::shared_ptr<Data> data_;
+    std::shared_ptr<SceneData> data_;
 };
 
 struct LoadOptions {
     std::vector<std::string> ignore_extensions;  // glTF extensions that the file requires and that are done without
     bool strict = false;                         // whatever would be a warning throws
     bool allow_external = false;                 // read what the file names outside its folder too
+    std::string animation;                       // name or index of the one that plays; empty: all of them
     bool complete = true;                        // add a camera and a neutral sky where the scene has neither
     std::function<void(const std::string& line)> warnings;
 };

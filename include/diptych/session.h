@@ -48,6 +48,9 @@ struct SessionOptions {
     std::function<void(const std::string& line)> warnings;  // what was left out of the scene, once each
 };
 
+// The implementation's.
+struct SessionData;
+
 /// Used by one thread at a time, and may be moved between threads. Several sessions run at once. A session that threw
 /// DeviceLost can only be destroyed; all else leaves it usable.
 class DIPTYCH_EXPORT Session {
@@ -88,8 +91,7 @@ public:
 
 private:
     friend struct Impl;
-    struct Data;
-    std::unique_ptr<Data> data_;
+    std::unique_ptr<SessionData> data_;
 };
 
 DIPTYCH_END

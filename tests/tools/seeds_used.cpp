@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../common/image_fixtures.h"
-#include "session/backend.h"
+#include "session/make_renderer.h"
 #include "backend/cpu_renderer.h"
 #include "commands/program.h"
 #include "settings/names.h"

@@ -42,6 +42,7 @@ public:
     std::string backend() const override { return "vulkan"; }
     std::string device() const override { return gpu_->name; }
     RendererCosts costs() const override { return costs_; }
+    Capabilities capabilities() const override { return {true, true, true, true}; }
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override;
     void restart(std::uint32_t seed) override;
     void clear_film() override;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "session/backend.h"
+#include "session/make_renderer.h"
 #include "error.h"
 #include "oracle_renderer/oracle_renderer.h"
 #include "settings/names.h"

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "clock.h"
-#include "session/backend.h"
+#include "session/make_renderer.h"
 #include "commands/command.h"
 #include "error.h"
 #include "console/interrupt.h"

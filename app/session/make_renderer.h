@@ -1,23 +1,14 @@
-// The renderer that was asked for.
+// The renderer that a command asked for.
 #pragma once
 
 #include <functional>
 #include <memory>
-#include <string>
-#include <vector>
 
-#include "pack/packed_scene.h"
-#include "render/request.h"
-#include "render/renderer.h"
-#include "scene/scene.h"
+#include "backends/backends.h"
 
 namespace diptych::core::app {
 
-/// What --backend may name.
-std::vector<std::string> backend_names();
-
-/// The panels read the packed scene, the oracle the logical one it was made of; both must outlive the renderer. Throws
-/// NoDevice where there is no suitable one, Error where the program was built without that backend.
+/// open_renderer, or what tests have put in its place.
 std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request);
 
 using RendererMaker = std::function<std::unique_ptr<Renderer>(const Scene& scene, const PackedScene& packed,

@@ -1,0 +1,30 @@
+// The backends by name: the one place that knows them all.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pack/packed_scene.h"
+#include "render/renderer.h"
+#include "render/request.h"
+#include "scene/scene.h"
+
+namespace diptych::core::app {
+
+/// "cpu", "vulkan" and "oracle".
+std::vector<std::string> backend_names();
+
+/// The renderer of the request's backend, device, threads and oracle mode. The panels read the packed scene, the oracle
+/// the logical one it was made of; both must outlive the renderer. From any thread. Throws NoDevice where there is no
+/// suitable one, Error where the program was built without that backend.
+std::unique_ptr<Renderer> open_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request);
+
+/// Names of the Vulkan devices that can render, in Vulkan's order.
+std::vector<std::string> usable_devices();
+
+/// Closes the Vulkan device that is kept open between renderers, once none of them uses it, and returns how many
+/// messages the validation layer had in all.
+std::uint64_t close_devices();
+
+}  // namespace diptych::core::app

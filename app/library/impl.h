@@ -1,0 +1,136 @@
+// The public types' insides, and the way between them and those of common.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "diptych/diptych.h"
+#include "render/film.h"
+#include "render/request.h"
+#include "render/session.h"
+#include "scene/scene.h"
+
+DIPTYCH_BEGIN
+
+/// What a user may edit of a scene.
+struct Tables {
+    std::vector<Material> materials;
+    std::vector<Camera> cameras;
+    std::vector<Light> lights;
+    std::vector<Instance> instances;
+    Environment environment;
+
+    bool operator==(const Tables&) const = default;
+};
+
+struct SceneData {
+    Tables tables;
+    Tables synced;                        // what `content` says
+    std::shared_ptr<core::Scene> content;  // written only while nobody else holds it
+    std::uint64_t revision = 0;            // of this process; 0 is the scene as its file has it
+
+    /// The scene as edited, which stays as it is from then on. Throws Error where an edit is out of range.
+    std::shared_ptr<const core::Scene> snapshot();
+
+    /// `content`, to be written: a copy where a session holds it. It becomes another revision.
+    core::Scene& own_content();
+};
+
+/// Samples that a film has of one seed.
+struct SampleRange {
+    std::uint32_t seed = 0;
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+struct FilmData {
+    FilmInfo info;
+    core::Film film;
+    core::RenderRequest request;  // for the metadata
+    std::vector<SampleRange> ranges;
+    std::uint64_t revision = 0;  // of the scene
+    core::Moment moment;
+    core::LayeredImage developed;
+};
+
+struct SessionData {
+    std::shared_ptr<SceneData> scene;
+    std::shared_ptr<const core::Scene> content;
+    std::uint64_t revision = 0;  // of the content
+    BackendChoice choice;
+    Settings settings;
+    SessionOptions options;
+    core::Moment moment;
+    std::unique_ptr<core::Session> session;
+    std::set<std::string> warned;
+    std::vector<SampleRange> ranges;  // of the picture, in rising order
+    double seconds = 0;               // of rendering it
+
+    core::RenderSettings core_settings() const;
+    core::RenderRequest request() const;
+    void open();
+    void begin_picture();
+    void follow_edits();
+    void go_to(const core::Moment& next, const Settings& wanted);
+    std::uint32_t done() const { return ranges.empty() ? 0 : ranges.back().first + ranges.back().count; }
+};
+
+struct Impl {
+    static SceneData& data(const Scene& scene) { return *scene.data_; }
+    static std::shared_ptr<SceneData> shared(const Scene& scene) { return scene.data_; }
+    static SessionData& data(Session& session) { return *session.data_; }
+    static const FilmData& data(const Film& film) { return *film.data_; }
+    static Scene make_scene(std::shared_ptr<core::Scene> content);
+    static Film make_film(std::shared_ptr<const FilmData> data) { return Film(std::move(data)); }
+};
+
+/// Runs `work`; what it throws becomes the library's own.
+template <class Work>
+auto guarded(const Work& work) {
+    try {
+        return work();
+    } catch (const Error&) {
+        throw;
+    } catch (const core::NoDevice& error) {
+        throw NoDevice(error.what());
+    } catch (const core::DeviceLost& error) {
+        throw DeviceLost(error.what());
+    } catch (const core::Error& error) {
+        throw Error(error.what());
+    }
+}
+
+/// Sets `flag` once the token says so, as long as it lives.
+class StopFlag {
+public:
+    explicit StopFlag(const std::stop_token& token) : callback_(token, [this] { flag_ = true; }) {}
+    const std::atomic<bool>& flag() const { return flag_; }
+
+private:
+    std::atomic<bool> flag_{false};
+    std::stop_callback<std::function<void()>> callback_;
+};
+
+// convert.cpp
+Tables tables_of(const core::Scene& scene);
+/// Writes what differs between the tables into the scene; `before` is what the scene says.
+void apply(const Tables& before, const Tables& after, core::Scene& scene);
+core::Camera to_core(const Camera& camera);
+core::PunctualLight to_core(const Light& light);
+Light from_core(const core::PunctualLight& light);
+Camera from_core(const core::Camera& camera);
+Environment from_core(const core::Environment& environment);
+glm::dmat4 to_core(const Matrix& matrix);
+Matrix from_core(const glm::dmat4& matrix);
+core::RenderSettings to_core(const Settings& settings);
+std::string core_name(Backend backend);
+
+// validate.cpp: throw Error naming object, field and value.
+void check(const Tables& tables, const core::Scene& scene);
+void check(const Camera& camera);
+void check(const Settings& settings, std::size_t cameras);
+
+DIPTYCH_END

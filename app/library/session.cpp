@@ -1,0 +1,273 @@
+#include "diptych/session.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "backends/backends.h"
+#include "library/impl.h"
+#include "pose/pose.h"
+#include "render/film_tiles.h"
+#include "render/progressive.h"
+
+DIPTYCH_BEGIN
+
+namespace {
+
+core::MakeRenderer maker_of(const core::RenderRequest& request) {
+    return [request](const core::Scene& scene, const core::PackedScene& packed, const core::RenderSettings& settings) {
+        core::RenderRequest asked = request;
+        asked.settings = settings;
+        return core::app::open_renderer(scene, packed, asked);
+    };
+}
+
+}  // namespace
+
+core::RenderSettings SessionData::core_settings() const {
+    core::RenderSettings out = to_core(settings);
+    // Reuse looks back to the picture before, which costs memory: only where there is another moment or view.
+    out.moves = choice.backend != Backend::oracle && core::chains_frames(out) && (core::moves(*content) || moment.camera);
+    return out;
+}
+
+core::RenderRequest SessionData::request() const {
+    core::RenderRequest out;
+    out.scene = content->name;
+    out.backend = core_name(choice.backend);
+    out.device = choice.device;
+    out.threads = choice.threads;
+    out.validation = choice.validation;
+    out.start = moment.seconds.value_or(0);
+    out.settings = to_core(settings);
+    return out;
+}
+
+void SessionData::begin_picture() {
+    ranges.clear();
+    seconds = 0;
+}
+
+void SessionData::open() {
+    session.reset();
+    core::SessionHooks hooks;
+    hooks.warn = [this](const std::vector<std::string>& lines) {
+        for (const std::string& line : lines) {
+            if (options.warnings && warned.insert(line).second) {
+                options.warnings(line);
+            }
+        }
+    };
+    session = std::make_unique<core::Session>(*content, core_settings(), maker_of(request()), core::Moment(),
+                                              std::move(hooks));
+    if (moment.seconds || moment.camera) {
+        core::Moment wanted = moment;
+        if (session->change_to(wanted, session->settings()) == core::Change::settings) {
+            session->set(session->settings(), wanted);
+        } else {
+            session->show(wanted, settings.seed);
+        }
+    }
+    begin_picture();
+}
+
+void SessionData::follow_edits() {
+    std::shared_ptr<const core::Scene> edited = scene->snapshot();
+    if (edited == content) {
+        return;
+    }
+    check(settings, edited->cameras.size());
+    const bool in_place =
+        session->renderer().capabilities().reconfigures && core::editable_in_place(*content, *edited);
+    revision = scene->revision;
+    std::swap(content, edited);  // the old one lives until the session has let go of it
+    if (in_place) {
+        session->edit(*content);
+        begin_picture();
+    } else {
+        open();
+    }
+}
+
+void SessionData::go_to(const core::Moment& next, const Settings& wanted) {
+    const core::Moment moment_before = std::exchange(moment, next);
+    const Settings settings_before = std::exchange(settings, wanted);
+    try {
+        const core::RenderSettings asked = core_settings();
+        const core::Change change = session->change_to(moment, asked);
+        if (change < core::Change::settings) {
+            session->show(moment);
+        } else if (session->renderer().capabilities().reconfigures) {
+            session->set(asked, moment);
+        } else {
+            open();
+        }
+    } catch (...) {
+        moment = moment_before;
+        settings = settings_before;
+        open();  // a session of which a call has thrown is of no use
+        throw;
+    }
+    begin_picture();
+}
+
+Session::Session(const Scene& scene, const BackendChoice& backend, const Settings& settings,
+                 const SessionOptions& options)
+    : data_(std::make_unique<SessionData>()) {
+    guarded([&] {
+        data_->scene = Impl::shared(scene);
+        data_->content = data_->scene->snapshot();
+        data_->revision = data_->scene->revision;
+        check(settings, data_->content->cameras.size());
+        data_->choice = backend;
+        data_->settings = settings;
+        data_->options = options;
+        data_->open();
+    });
+}
+
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+RenderResult Session::render(std::uint32_t first, std::uint32_t count, const RenderOptions& options) {
+    return guarded([&] {
+        SessionData& d = *data_;
+        d.follow_edits();
+        if (first < d.done()) {
+            throw Error(fmt::format("session: sample {} was rendered before; the next is {}", first, d.done()));
+        }
+        if (count == 0 && options.seconds <= 0 && options.relmse <= 0) {
+            return RenderResult();
+        }
+        if (options.relmse > 0 && !d.settings.standard_error) {
+            throw Error("session: relmse needs the setting standard_error");
+        }
+        // The film stays even, whole samples of every pixel, so that what follows goes on from there.
+        const std::atomic<bool> never{false};
+        std::atomic<bool> stopped{false};
+        std::uint32_t rendered = 0;
+        core::ProgressiveHooks hooks;
+        hooks.render = [&](std::uint32_t from, std::uint32_t samples, const std::atomic<bool>&) {
+            if (options.stop.stop_requested()) {
+                stopped = true;
+                return;
+            }
+            d.session->render(from, samples, never);
+            rendered += samples;
+        };
+        if (options.progress) {
+            hooks.progress = [&](const core::Progress& p) {
+                options.progress({p.spp, p.seconds, p.eta_seconds, p.samples_per_second, p.rays_per_second, p.relmse});
+            };
+        }
+        RenderResult result;
+        const auto keep = [&] {
+            if (rendered > 0) {
+                d.ranges.push_back({d.settings.seed, first, rendered});
+            }
+            d.seconds += result.seconds;
+        };
+        try {
+            const core::ProgressiveResult done = core::render_progressively(
+                d.session->renderer(), {first, count, options.seconds, options.relmse}, stopped, hooks);
+            result = {rendered, done.seconds, done.interrupted};
+        } catch (...) {
+            keep();
+            throw;
+        }
+        keep();
+        return result;
+    });
+}
+
+RenderResult Session::render(std::uint32_t count, const RenderOptions& options) {
+    guarded([&] { data_->follow_edits(); });
+    return render(data_->done(), count, options);
+}
+
+Film Session::film() const {
+    return guarded([&] {
+        const SessionData& d = *data_;
+        auto film = std::make_shared<FilmData>();
+        film->film = d.session->film();
+        const core::FilmTotals totals = core::film_totals(film->film);
+        film->request = d.request();
+        film->ranges = d.ranges;
+        film->revision = d.revision;
+        film->moment = d.moment;
+        FilmInfo& info = film->info;
+        info.scene = d.content->name;
+        info.backend = d.choice.backend;
+        info.device = device();
+        info.settings = d.settings;
+        for (const SampleRange& range : d.ranges) {
+            info.spp += range.count;
+        }
+        info.samples = totals.samples;
+        info.nonfinite = totals.nonfinite;
+        info.rays = totals.rays;
+        info.seconds = d.seconds;
+        film->developed = core::develop(film->film);
+        return Impl::make_film(std::move(film));
+    });
+}
+
+void Session::restart(std::optional<std::uint32_t> seed) {
+    guarded([&] {
+        SessionData& d = *data_;
+        d.settings.seed = seed.value_or(d.settings.seed);
+        d.session->restart(d.settings.seed);
+        d.begin_picture();
+    });
+}
+
+void Session::pose(double seconds) {
+    guarded([&] {
+        if (!std::isfinite(seconds)) {
+            throw Error("session: a moment has to be a finite number of seconds");
+        }
+        data_->follow_edits();
+        core::Moment next = data_->moment;
+        next.seconds = seconds;
+        data_->go_to(next, data_->settings);
+    });
+}
+
+void Session::set_camera(const Camera& camera) {
+    guarded([&] {
+        check(camera);
+        data_->follow_edits();
+        core::Moment next = data_->moment;
+        next.camera = to_core(camera);
+        data_->go_to(next, data_->settings);
+    });
+}
+
+void Session::set_settings(const Settings& settings) {
+    guarded([&] {
+        data_->follow_edits();
+        check(settings, data_->content->cameras.size());
+        data_->go_to(data_->moment, settings);
+    });
+}
+
+const Settings& Session::settings() const {
+    return data_->settings;
+}
+
+Backend Session::backend() const {
+    return data_->choice.backend;
+}
+
+std::string Session::device() const {
+    return data_->session->renderer().device();
+}
+
+Capabilities Session::capabilities() const {
+    const core::Capabilities c = data_->session->renderer().capabilities();
+    return {c.chains, c.reconfigures, c.paths};
+}
+
+DIPTYCH_END
