@@ -59,16 +59,8 @@ void SessionData::open() {
             }
         }
     };
-    session = std::make_unique<core::Session>(*content, core_settings(), maker_of(request()), core::Moment(),
-                                              std::move(hooks));
-    if (moment.seconds || moment.camera) {
-        core::Moment wanted = moment;
-        if (session->change_to(wanted, session->settings()) == core::Change::settings) {
-            session->set(session->settings(), wanted);
-        } else {
-            session->show(wanted, settings.seed);
-        }
-    }
+    session =
+        std::make_unique<core::Session>(*content, core_settings(), maker_of(request()), moment, std::move(hooks));
     begin_picture();
 }
 
