@@ -41,7 +41,8 @@ TEST_CASE("verify passes integrators of one expectation and fails those of two")
     CHECK(pass.p_values.size() == 6);
 
     same.progress = {};
-    same.settings.resampling.mis = dp::ResamplingMis::biased_one_over_m;
+    same.settings.resampling.visibility = dp::ResamplingVisibility::biased_initial;
+    same.settings.size = {48, 32};
     const dp::Verdict fail = dp::verify(dp::load(source_dir + "/scenes/cornell.gltf"), same);
     INFO(fail.reason << ", " << fail.bias_percent << " +- " << fail.ci95);
     CHECK(fail.verdict == dp::VerdictKind::fail);
