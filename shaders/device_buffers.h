@@ -1,9 +1,10 @@
-// The one list of the buffers beside the scene's (language/scene_buffers.h) whose addresses the shaders are given: films, what passes hand
-// on, records. SceneAddresses expands both lists, in GLSL (scene_hooks.glsl) and in C++ (vk_backend/memory/scene_addresses.h).
+// The only list of the buffers, beside the scene's (language/scene_buffers.h), whose addresses the shaders get: films,
+// intermediate results, records. SceneAddresses expands both lists, in GLSL (scene_hooks.glsl) and in C++
+// (vk_backend/memory/scene_addresses.h).
 #ifndef DEVICE_BUFFERS_H
 #define DEVICE_BUFFERS_H
 
-// X(element type, name, alignment of its address, whether shaders write it)
+// X(element type, name, alignment of the address, whether shaders write it)
 #define DEVICE_ARRAYS(X)                                \
     X(FilmPixel, film_pixels, 4, writable)              \
     X(FilmMoments, film_moments, 4, writable)           \
@@ -23,7 +24,7 @@
     X(WaveShadow, wave_shadows, 16, writable)           \
     X(WaveCounts, wave_counts, 4, writable)
 
-// X(name): no arrays; scene_hooks.glsl says what lies in each.
+// X(name): not arrays; scene_hooks.glsl declares their contents.
 #define DEVICE_BLOCKS(X) \
     X(candidate_list)    \
     X(ray_counters)

@@ -1,4 +1,4 @@
-// The push constants. Hit shaders have none, so these stand apart from what all shaders include.
+// The push constants. Hit shaders have none, so this file is separate from what all shaders include.
 #ifndef DISPATCH_BLOCK_GLSL
 #define DISPATCH_BLOCK_GLSL
 

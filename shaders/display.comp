@@ -1,4 +1,4 @@
-// One pixel of the window's picture from the film pixel beneath it.
+// Computes the window's picture, pixel by pixel, from the film.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -11,7 +11,7 @@
 #include "restir/resampling_memory.h"
 #include "film/tonemap.h"
 
-layout(local_size_x = 16, local_size_y = 16) in;  // as many as there are bins
+layout(local_size_x = 16, local_size_y = 16) in;  // as many invocations as histogram bins
 layout(set = 0, binding = 0, rgba8) uniform writeonly image2D picture;
 layout(push_constant, scalar) uniform Push { Display display; };
 
@@ -27,7 +27,7 @@ bool is_there(uvec2 address) { return (address.x | address.y) != 0u; }
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
-// What a layer says of a pixel: a colour, or a number in x.
+// The value of a layer at a pixel: a colour, or a number in x.
 struct Value {
     bool known;
     vec3 v;
@@ -39,7 +39,7 @@ vec3 mean_radiance(FilmPixel pixel) {
     return pixel.samples == 0u ? vec3(0.0f) : (pixel.sum + pixel.compensation) / float(pixel.samples);
 }
 
-// As pixel_standard_error has it, of the luminance; in fp32, which a look at it does not tell.
+// Standard error of the luminance, as in pixel_standard_error, but in fp32: the difference is not visible.
 float standard_error(FilmPixel pixel, FilmMoments moments) {
     if (pixel.samples < 2u) {
         return uintBitsToFloat(0x7fc00000u);

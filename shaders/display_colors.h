@@ -1,5 +1,4 @@
-// The colours of layers that are not radiance, in display values; the legend beside the picture takes them from here
-// too.
+// The colours of layers other than radiance, in display values. The legend beside the picture uses them too.
 #ifndef DISPLAY_COLORS_H
 #define DISPLAY_COLORS_H
 
@@ -9,12 +8,13 @@
 
 SHARED_BEGIN
 
-/// Dark to bright as t goes from 0 to 1: the heat maps' magma.
+/// Dark to bright for t from 0 to 1: the colour map magma of heat maps.
 FN vec3 ramp_color(float t) {
     float position = 15.0f * min(max(t, 0.0f), 1.0f);
     vec3 color = vec3(0.0f, 0.0f, 0.0f);
     float entry = 0.0f;
-    // Every entry, weighted by a tent: no table, which GLSL and C++ write differently.
+    // Sums all entries, each weighted by a tent function. A lookup would need an array, and GLSL and C++ write arrays
+    // differently.
 #define ADD_ENTRY(r, g, b)                                                                                             \
     color += max(1.0f - abs(position - entry), 0.0f) * vec3(r, g, b);                                                  \
     entry += 1.0f;
@@ -29,7 +29,7 @@ FN vec3 signed_color(float t) {
     return t < 0.0f ? strength * vec3(0.25f, 0.6f, 1.0f) : strength * vec3(1.0f, 0.35f, 0.2f);
 }
 
-/// A hue of its own for every number, as far as there are so many; bright enough on black.
+/// A hue for every number, bright enough on black. Numbers may share a hue.
 FN vec3 id_color(uint id) {
     uint bits = hash_combine(id, 0x9e3779b9u);
     float hue = 6.0f * unit_float(bits);
@@ -41,13 +41,13 @@ FN vec3 id_color(uint id) {
     return value * (0.25f * vec3(1.0f, 1.0f, 1.0f) + 0.75f * pure);
 }
 
-/// What no film or no layer is behind: squares of 16 pixels.
+/// Background where there is no film or no layer: squares of 16 pixels.
 FN vec3 checkerboard(uvec2 pixel) {
     float level = ((pixel.x / 16u + pixel.y / 16u) & 1u) == 0u ? 0.16f : 0.2f;
     return vec3(level, level, level);
 }
 
-/// Of a number that is not finite, as in heat maps.
+/// The colour of a number that is not finite, as in heat maps.
 FN vec3 nonfinite_color() {
     return vec3(0.0f, 1.0f, 1.0f);
 }

@@ -1,4 +1,4 @@
-// The film in memory. Each sample is traced and then added, so that no film is kept in registers while rays are.
+// The film in memory. Each sample is traced first and added then, so that no film is kept in registers during a trace.
 #ifndef FILM_STORE_GLSL
 #define FILM_STORE_GLSL
 

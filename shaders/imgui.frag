@@ -1,5 +1,5 @@
 #version 460
-// Colours and textures of the interface are display values, blended as they are.
+// Colours and textures of the interface are display values, and are blended as such.
 layout(location = 0) in vec4 color;
 layout(location = 1) in vec2 uv;
 

@@ -1,5 +1,5 @@
 #version 460
-// Triangles of the interface, given in pixels.
+// Triangles of the interface, in pixels.
 layout(location = 0) in vec2 position;
 layout(location = 1) in vec2 uv;
 layout(location = 2) in vec4 color;

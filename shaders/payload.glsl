@@ -1,4 +1,4 @@
-// What a ray carries. The alpha key travels inward to the any-hit shaders, the answer outward.
+// Ray payloads. The alpha key goes in, to the any-hit shaders; the result comes out.
 #ifndef PAYLOAD_GLSL
 #define PAYLOAD_GLSL
 
@@ -7,7 +7,7 @@
 #define CLOSEST_PAYLOAD 0
 #define SHADOW_PAYLOAD 1
 
-// The closest-hit payload is a Hit whose `instance` is the alpha key until the trace ends.
+// The closest-hit payload is a Hit. Its `instance` holds the alpha key until the trace ends.
 
 struct ShadowPayload {
     uint alpha_key;

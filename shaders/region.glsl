@@ -1,4 +1,5 @@
-// A compute shader over the pixels of a slice's region, in squares: what 32 invocations look at is more alike there than along a row.
+// A compute shader over the pixels of a slice's region, in squares: 32 invocations access more similar data in a
+// square than in a row.
 #ifndef REGION_GLSL
 #define REGION_GLSL
 

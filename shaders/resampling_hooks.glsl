@@ -1,4 +1,5 @@
-// What passes of resampling find beside resampling_memory.glsl: the structures of the moment before and of the emitters (hooks.md).
+// Hooks of resampling beside resampling_memory.glsl: the structures of the previous moment and of the emitters
+// (hooks.md).
 #ifndef RESAMPLING_HOOKS_GLSL
 #define RESAMPLING_HOOKS_GLSL
 

@@ -1,4 +1,4 @@
-// What resampling keeps between its passes (hooks.md).
+// The memory of resampling between its passes (hooks.md).
 #ifndef RESAMPLING_MEMORY_GLSL
 #define RESAMPLING_MEMORY_GLSL
 

@@ -8,7 +8,7 @@
 shared uint group_listed;
 shared uint first_listed;
 
-// Pixels that need rays are listed, so that these are traced side by side however few there are.
+// Appends the pixel to the list if it needs rays, so that the rays of listed pixels are traced side by side.
 void list(bool listed, CandidateRequest request) {
     if (gl_LocalInvocationIndex == 0u) {
         group_listed = 0u;

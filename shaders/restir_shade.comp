@@ -9,7 +9,7 @@
 
 layout(local_size_x = WAVE_GROUP) in;
 
-// The first vertex takes its light from its reservoir; what goes on from there goes in waves.
+// The first vertex takes its light from its reservoir. The path continues from there in waves.
 void main() {
     uint i = gl_GlobalInvocationID.x;
     bool goes_on = false;

@@ -1,4 +1,4 @@
-// The scene as a kernel reads it (hooks.md): constants, feature(bit) and load_NAME(index).
+// The hooks for reading the scene (hooks.md): constants, feature(bit) and load_NAME(index).
 #ifndef SCENE_HOOKS_GLSL
 #define SCENE_HOOKS_GLSL
 
@@ -24,7 +24,7 @@ layout(constant_id = 0) const uint FEATURES = 0xffffffffu;
 uint features() { return FEATURES; }
 bool feature(uint bit) { return (FEATURES & bit) != 0u; }
 
-// An element's alignment, up to the 16 bytes of the widest load, divides its size.
+// An alignment has to divide the element's size. The widest load is 16 bytes.
 #define ALIGN_uint 4
 #define ALIGN_float 4
 #define ALIGN_vec2 8
@@ -57,12 +57,12 @@ DEVICE_ARRAYS(DECLARE_REFERENCE)
 #undef DECLARE_REFERENCE
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer candidate_list_buffer {
-    uvec3 command;  // indirect, of which x counts
+    uvec3 command;  // indirect dispatch; x counts the entries
     CandidateRequest entries[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ray_counters_buffer { RayCounters data; };
 
-// Mirrored by vk_backend/memory/scene_addresses.h.
+// Mirrored in vk_backend/memory/scene_addresses.h.
 layout(set = 0, binding = 1, scalar) uniform SceneAddresses {
 #define DECLARE_ADDRESS(Type, name) name##_buffer name;
     SCENE_BUFFERS(DECLARE_ADDRESS)

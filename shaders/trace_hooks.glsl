@@ -1,4 +1,4 @@
-// trace_closest and trace_any (hooks.md) for ray generation shaders; on request they also record every ray.
+// trace_closest and trace_any (hooks.md) for ray generation shaders. On request they also record every ray.
 #ifndef TRACE_HOOKS_GLSL
 #define TRACE_HOOKS_GLSL
 
@@ -12,7 +12,8 @@ layout(set = 0, binding = 0) uniform accelerationStructureEXT scene_structure;
 layout(location = CLOSEST_PAYLOAD) rayPayloadEXT Hit closest_payload;
 layout(location = SHADOW_PAYLOAD) rayPayloadEXT ShadowPayload shadow_payload;
 
-// Appends, so that neighbours in the list were traced at about the same time, for the same purpose, by neighbouring pixels.
+// Appends a ray. Neighbours in the list were traced at about the same time, for the same purpose, by neighbouring
+// pixels.
 void record_ray(vec3 origin, vec3 direction, float t_max, uint alpha_key) {
     uint capacity = dispatch_block.value.ray_capacity;
     uint slot = 0u;
@@ -43,13 +44,14 @@ Hit trace_closest(vec3 origin, vec3 direction, uint alpha_key) {
     return closest_payload;
 }
 
-// The nearest hit, or with `any` some hit before t_max: then only `instance` means something, and it is NONE where nothing is hit.
+// The nearest hit or, with `any`, some hit before t_max. With `any` only `instance` is defined; it is NONE without a
+// hit.
 Hit trace_either(vec3 origin, vec3 direction, float t_max, bool any, uint alpha_key) {
     if (RECORD_RAYS != 0u) {
         record_ray(origin, direction, any ? t_max : -1.0f, alpha_key);
     }
     uint flags = any ? gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT : 0u;
-    closest_payload.instance = alpha_key;  // stays, and is not NONE, where a hit is found and the closest-hit shader skipped
+    closest_payload.instance = alpha_key;  // remains, and is not NONE, if a hit skips the closest-hit shader
     traceRayEXT(scene_structure, opacity_flags() | flags, 0xffu, 0u, 0u, 0u, origin, 0.0f, direction, t_max,
                 CLOSEST_PAYLOAD);
     return closest_payload;

@@ -7,7 +7,7 @@
 
 layout(local_size_x = WAVE_GROUP) in;
 
-// Every path at its camera.
+// Starts every path at the camera.
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= slice_paths()) {

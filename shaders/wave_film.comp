@@ -8,7 +8,7 @@
 
 layout(local_size_x = WAVE_GROUP) in;
 
-// A pixel's paths, sample by sample.
+// Adds the paths of one pixel to the film, in order of their samples.
 void main() {
     uint pixel = gl_GlobalInvocationID.x;
     if (pixel >= slice_pixels()) {

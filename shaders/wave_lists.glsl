@@ -1,4 +1,4 @@
-// How the passes that compute append to a wave's lists: with one atomic of the device a group.
+// Compute passes append to a wave's lists here, with one device atomic per workgroup.
 #ifndef WAVE_LISTS_GLSL
 #define WAVE_LISTS_GLSL
 
@@ -9,7 +9,8 @@ shared uint group_shadows;
 shared uint first_ray;
 shared uint first_shadow;
 
-// A path, if it goes on, and its shadow ray, if it has one. The whole group calls this.
+// Appends a path if it continues, and its shadow ray if it has one. All invocations of the workgroup have to call
+// this.
 void append(uint wave, uint path, bool goes_on, bool has_shadow, WaveShadow asked) {
     if (gl_LocalInvocationIndex == 0u) {
         group_rays = 0u;

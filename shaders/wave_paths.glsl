@@ -1,4 +1,4 @@
-// PathState as it lies between passes. Included after path.kernel.h.
+// PathState as it is stored between passes. Included after path.kernel.h.
 #ifndef WAVE_PATHS_GLSL
 #define WAVE_PATHS_GLSL
 
@@ -29,7 +29,7 @@ void store_path(uint slot, PathState path) {
     }
 }
 
-// Of a path that goes on, without a light to be tested.
+// Restores a path that continues. It has no light to test.
 PathState unpack_path(WavePath packed, uvec2 pixel, uint sample_index) {
     PathState path;
     path.random = make_sampler(pixel, sample_index, constants.seed, constants.sampler_kind, constants.sample_count);

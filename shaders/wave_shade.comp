@@ -8,7 +8,7 @@
 
 layout(local_size_x = WAVE_GROUP) in;
 
-// Where the rays have arrived. A path that ends leaves what it has gathered.
+// Shades the hits of the rays. A path that ends stores its radiance.
 void main() {
     uint i = gl_GlobalInvocationID.x;
     uint slot = 0u;

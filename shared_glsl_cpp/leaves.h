@@ -1,4 +1,5 @@
-// Every leaf header that kernels use. C++ includes this before `struct Kernel`, so that the kernels' own includes are then empty.
+// Every leaf header that kernels use. C++ includes this file before `struct Kernel`, so that the kernels' own includes
+// of leaf headers expand to nothing inside the struct.
 #ifndef LEAVES_H
 #define LEAVES_H
 

@@ -7,15 +7,15 @@
 
 SHARED_BEGIN
 
-// Far below the peak the true value underflows, and then so would the density of a direction that rounding has moved
-// there.
+// Floor of log2 of the power. Far below the peak the exact value underflows to 0. A sampled direction that rounding
+// has moved there would then have density 0.
 CONST float BLINN_PHONG_LEAST_LOG2 = -86.0f;
 
 FN float blinn_phong_exponent(float alpha) {
     return 2.0f / (alpha * alpha) - 2.0f;
 }
 
-/// D(h), per steradian; cos^n = 2^(n/2 log2(1 - sin^2)), as pow is too inexact for large n.
+/// D(h), per steradian. cos^n is computed as 2^(n/2 log2(1 - sin^2)), because pow is too inexact for large n.
 FN float blinn_phong_d(vec3 h, float alpha) {
     float n = blinn_phong_exponent(alpha);
     float cos2 = h.z * h.z;
@@ -26,9 +26,9 @@ FN float blinn_phong_d(vec3 h, float alpha) {
     return h.z > 0.0f ? (n + 2.0f) * (0.5f * INV_PI) * power : 0.0f;
 }
 
-/// Smith's Lambda. Slopes of this distribution are Student-t (Ribardière et al. 2017) with n + 2 degrees of freedom:
-/// GGX at n = 0 (Heitz 2014, eq. 72), Beckmann at infinity (rational fit: Walter et al. 2007, eq. 27). Between them a
-/// mix that is exact toward grazing; G1 stays within 0.01 of the exact one.
+/// Smith's Lambda. The slopes of this distribution are Student-t with n + 2 degrees of freedom (Ribardière et al.
+/// 2017). It is GGX at n = 0 (Heitz 2014, eq. 72) and Beckmann at infinity (rational fit: Walter et al. 2007, eq. 27).
+/// Between the two, Lambda is a mix that is exact toward grazing; G1 stays within 0.01 of the exact value.
 FN float blinn_phong_lambda(vec3 w, float alpha) {
     float t = alpha * alpha;
     float sin2 = w.x * w.x + w.y * w.y;
@@ -50,7 +50,7 @@ FN float blinn_phong_g2(vec3 wo, vec3 wi, float alpha) {
     return 1.0f / (1.0f + blinn_phong_lambda(wo, alpha) + blinn_phong_lambda(wi, alpha));
 }
 
-/// A facet normal with density D(h) cos: cos = (1 - u)^(1/(n + 2)), and 1/(n + 2) = alpha^2 / 2.
+/// A facet normal with density D(h) cos: cos = (1 - u)^(1/(n + 2)), with 1/(n + 2) = alpha^2 / 2.
 FN vec3 sample_blinn_phong_normal(float alpha, vec2 u) {
     float x = alpha * alpha * log1p_poly(-min(u.y, 0.99999994f));  // ln cos^2
     float series = 1.0f + x * (0.5f + x * (0.16666667f + x * (0.041666668f + x * (0.0083333333f + x * 0.0013888889f))));

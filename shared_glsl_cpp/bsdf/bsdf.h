@@ -1,8 +1,8 @@
-// glTF 2.0's metallic-roughness surface as one sample / eval / pdf triple over either microfacet model, reflection
+// glTF 2.0's metallic-roughness surface as one sample / eval / pdf triple over either microfacet model. Reflection
 // only:
 //   f = diffuse/pi (1 - F) + F D G2 / (4 cos_o cos_i),  F = F(o·h)   (glTF 2.0, appendix B.3; KHR_materials_specular)
 // Directions are local: unit, shading normal = +z, leaving the surface. `features` are the bits of scene_features.h
-// that may be needed; with a bit off its code is dropped, and surfaces that do not need it come out the same.
+// that may be needed. The code of a bit that is off is dropped; surfaces that do not need it get the same result.
 #ifndef BSDF_H
 #define BSDF_H
 
@@ -16,12 +16,12 @@
 
 SHARED_BEGIN
 
-CONST float ALPHA_MIRROR = 1.0e-4f;  // below: a perfect mirror
-CONST float COS_MIN = 1.0e-7f;       // directions up to here are under the horizon, for sample, eval and pdf alike
-CONST float LOBE_MIN = 0.1f;         // the least probability of a lobe that can reflect
+CONST float ALPHA_MIRROR = 1.0e-4f;  // roughness below this is a perfect mirror
+CONST float COS_MIN = 1.0e-7f;       // a cosine up to this counts as below the horizon, in sample, eval and pdf alike
+CONST float LOBE_MIN = 0.1f;         // the smallest selection probability of a lobe that can reflect
 
 struct BsdfParameters {
-    vec3 diffuse;  // base color (1 - metallic)
+    vec3 diffuse;  // base color · (1 - metallic)
     vec3 f0;
     vec3 f90;
     float alpha;  // roughness^2
@@ -29,11 +29,11 @@ struct BsdfParameters {
 };
 
 struct BsdfSample {
-    vec3 direction;  // unit; its meaning is void where pdf is 0
+    vec3 direction;  // unit; undefined where pdf is 0
     vec3 weight;     // f cos / pdf
-    float pdf;       // per steradian; 0 for a null sample; of a delta, the discrete probability
+    float pdf;       // per steradian; 0 for a null sample; the discrete probability for a delta lobe
     uint delta;      // 1: a perfect mirror
-    uint lobe;       // LOBE_… | FACET_…, for records of what was chosen
+    uint lobe;       // LOBE_… | FACET_…, for path records
 };
 
 /// f cos and the pdf of one pair of directions.
@@ -42,7 +42,7 @@ struct BsdfValue {
     float pdf;
 };
 
-/// `f0_dielectric` by dielectric_f0; `specular` and `specular_color` as in KHR_materials_specular.
+/// `f0_dielectric`: see dielectric_f0. `specular` and `specular_color`: see KHR_materials_specular.
 FN BsdfParameters bsdf_parameters(vec3 base_color, float metallic, float roughness, float f0_dielectric, float specular,
                                   vec3 specular_color, uint model) {
     BsdfParameters p;
@@ -57,7 +57,7 @@ FN BsdfParameters bsdf_parameters(vec3 base_color, float metallic, float roughne
     return p;
 }
 
-/// Whether anything may reflect specularly: a scene that has no need of a microfacet model is diffuse throughout.
+/// Whether any surface of the scene may reflect specularly. A scene that needs no microfacet model is all diffuse.
 FN bool bsdf_may_be_specular(uint features) {
     return (features & (FEATURE_GGX | FEATURE_BLINN_PHONG)) != 0u;
 }
@@ -70,7 +70,7 @@ FN bool bsdf_is_blinn_phong(IN(BsdfParameters) p, uint features) {
     return (features & FEATURE_BLINN_PHONG) != 0u && ((features & FEATURE_GGX) == 0u || p.model == BRDF_BLINN_PHONG);
 }
 
-/// Probability of the specular lobe, seen from wo; -1 where nothing reflects at all.
+/// Selection probability of the specular lobe, seen from wo; -1 where the surface reflects nothing.
 FN float bsdf_specular_probability(IN(BsdfParameters) p, vec3 wo, uint features) {
     bool has_diffuse = max_component(p.diffuse) > 0.0f;
     if (!bsdf_may_be_specular(features)) {
@@ -84,12 +84,13 @@ FN float bsdf_specular_probability(IN(BsdfParameters) p, vec3 wo, uint features)
     return has_diffuse && has_specular ? mixed : single;
 }
 
-/// Whether the surface reflects, and only as a mirror: then light sampling cannot hit it.
+/// Whether the surface reflects as a mirror only. Light sampling finds nothing for such a surface.
 FN bool bsdf_is_purely_delta(IN(BsdfParameters) p, uint features) {
     return bsdf_is_mirror(p, features) && !(max_component(p.diffuse) > 0.0f);
 }
 
-/// The microfacet lobe that is not a mirror: F D G2 / (4 cos_o), which is f cos_i, and its pdf. Directions above the horizon.
+/// The microfacet lobe that is not a mirror: f cos_i = F D G2 / (4 cos_o), and its pdf. Both directions are above the
+/// horizon.
 FN BsdfValue microfacet_eval_pdf(IN(BsdfParameters) p, vec3 wo, vec3 wi, vec3 h, float o_dot_h, vec3 fresnel, uint features) {
     BsdfValue r;
     r.value = vec3(0.0f, 0.0f, 0.0f);
@@ -105,7 +106,7 @@ FN BsdfValue microfacet_eval_pdf(IN(BsdfParameters) p, vec3 wo, vec3 wi, vec3 h,
     return r;
 }
 
-/// The same of any two directions.
+/// The same for any two directions.
 FN BsdfValue microfacet_eval_pdf(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint features) {
     BsdfValue r;
     r.value = vec3(0.0f, 0.0f, 0.0f);
@@ -119,7 +120,7 @@ FN BsdfValue microfacet_eval_pdf(IN(BsdfParameters) p, vec3 wo, vec3 wi, uint fe
     return microfacet_eval_pdf(p, wo, wi, sum / sum_length, o_dot_h, fresnel_schlick(p.f0, p.f90, o_dot_h), features);
 }
 
-/// eval and pdf of the lobes that are not delta. `p_specular` is bsdf_specular_probability of wo.
+/// f cos_i and pdf of the lobes that are not delta. `p_specular` is bsdf_specular_probability of wo.
 FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, float p_specular, vec3 wi, uint features) {
     BsdfValue r;
     r.value = vec3(0.0f, 0.0f, 0.0f);
@@ -127,12 +128,12 @@ FN BsdfValue bsdf_eval_pdf_local(IN(BsdfParameters) p, vec3 wo, float p_specular
     if (!(wo.z > COS_MIN && wi.z > COS_MIN) || p_specular < 0.0f) {
         return r;
     }
-    if (!bsdf_may_be_specular(features) || !(p_specular > 0.0f)) {  // nothing but diffuse: f0 and f90 are 0
+    if (!bsdf_may_be_specular(features) || !(p_specular > 0.0f)) {  // diffuse only: f0 and f90 are 0
         r.value = p.diffuse * (INV_PI * MUTANT(DROP_COSINE, wi.z, 1.0f));
         r.pdf = pdf_cosine_hemisphere_solid_angle(wi.z);
         return r;
     }
-    // |wo + wi| = 2 o·h, at least COS_MIN as both are above the horizon.
+    // |wo + wi| = 2 o·h. It is at least COS_MIN, because both directions are above the horizon.
     vec3 sum = wo + wi;
     float sum_length = length(sum);
     vec3 h = sum / sum_length;
@@ -184,7 +185,7 @@ FN BsdfSample bsdf_sample_mirror(IN(BsdfParameters) p, vec3 wo, float p_specular
     return s;
 }
 
-/// Normal of the microfacet that the specular lobe reflects wo off.
+/// Normal of the microfacet off which the specular lobe reflects wo.
 FN vec3 sample_microfacet_normal(IN(BsdfParameters) p, vec3 wo, vec2 u, uint features) {
     float alpha = clamp(p.alpha, ALPHA_MIRROR, 1.0f);
     if (bsdf_is_blinn_phong(p, features)) {
@@ -196,8 +197,8 @@ FN vec3 sample_microfacet_normal(IN(BsdfParameters) p, vec3 wo, vec2 u, uint fea
     return vec3(0.0f, 0.0f, 0.0f);
 }
 
-/// A direction by one of the lobes; a facet that reflects below the horizon gives a null sample, never a retry. `p_specular` is
-/// bsdf_specular_probability of wo.
+/// Samples a direction from one of the lobes. A facet that reflects below the horizon gives a null sample; there is no
+/// retry. `p_specular` is bsdf_specular_probability of wo.
 FN BsdfSample bsdf_sample_local(IN(BsdfParameters) p, vec3 wo, float p_specular, float u_lobe, vec2 u, uint features) {
     BsdfSample s = bsdf_null_sample();
     if (!(wo.z > COS_MIN) || p_specular < 0.0f) {

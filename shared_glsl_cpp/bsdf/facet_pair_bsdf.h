@@ -1,4 +1,4 @@
-// The BSDF over the two facets that stand for a normal map (microfacet_normal_map.h), in world space.
+// The BSDF over the two facets that represent a normal map (microfacet_normal_map.h), in world space.
 #ifndef FACET_PAIR_BSDF_H
 #define FACET_PAIR_BSDF_H
 
@@ -19,7 +19,7 @@ FN BsdfSample bsdf_sample_in_frame(IN(BsdfParameters) p, IN(Frame) frame, vec3 w
     return r;
 }
 
-/// f cos and pdf: over both facets that wo may meet first, and all ways to leave.
+/// f cos_i and pdf, summed over both facets that wo may meet first and over all exits (facet_exit).
 FN BsdfValue facet_pair_eval_pdf(IN(BsdfParameters) p, IN(FacetPair) m, vec3 wo, vec3 wi, uint features) {
     BsdfValue sum;
     sum.value = vec3(0.0f, 0.0f, 0.0f);
@@ -49,8 +49,8 @@ FN BsdfValue facet_pair_eval_pdf(IN(BsdfParameters) p, IN(FacetPair) m, vec3 wo,
     return sum;
 }
 
-/// Follows one path: u.x picks the lobe; u.y the facet that wo meets and, stretched over what is left of it, whether a direction off
-/// the mapped facet is caught by the tangent one.
+/// Samples one path over the facets. u.x picks the lobe. u.y picks the facet that wo meets; the rest of u.y, rescaled
+/// to [0, 1), decides whether the tangent facet catches a direction that leaves the mapped facet.
 FN BsdfSample facet_pair_sample(IN(BsdfParameters) p, IN(FacetPair) m, vec3 wo, vec2 u_lobe, vec2 u, uint features) {
     Frame frame = frame_from_normal(m.facet);
     float p_facet = mapped_facet_probability(m, wo);

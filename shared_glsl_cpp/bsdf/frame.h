@@ -12,10 +12,11 @@ struct Frame {
     vec3 normal;
 };
 
-/// Right-handed, for a unit normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited"). The frame turns where n.z
-/// passes the bound; a bound of 0 would lie in every wall that stands along z, where rounding, and so the backend, would choose.
+/// Right-handed frame about a unit normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited"). The tangents
+/// flip where n.z passes -1/16. A threshold of 0 would be met by every wall that is parallel to the z axis; there
+/// rounding decides the sign, and the backends round differently.
 FN Frame frame_from_normal(vec3 n) {
-    // The sign by its bit: walls come in both kinds, and a CPU would guess.
+    // The sign is taken from the bit, without a branch: both signs are common, so a CPU would mispredict.
     float side = uintBitsToFloat(0x3f800000u | (floatBitsToUint(n.z + 0.0625f) & 0x80000000u));
     PRECISE float a = -1.0f / (side + n.z);
     PRECISE float b = n.x * n.y * a;

@@ -7,7 +7,7 @@
 
 SHARED_BEGIN
 
-/// cos^2 alpha^2 + sin^2 of a facet normal, which does not cancel.
+/// cos^2 alpha^2 + sin^2 of a facet normal. This form has no cancellation.
 FN float ggx_stretch(float cos_h, float sin2_h, float a2) {
     return cos_h * cos_h * a2 + sin2_h;
 }
@@ -38,8 +38,8 @@ FN float ggx_g2(vec3 wo, vec3 wi, float alpha) {
     return 2.0f * wo.z * wi.z / (o + i);
 }
 
-/// A facet normal out of those visible from wo; Dupuy and Benyoub 2023. The cap's sine comes from 1 - z, which
-/// does not cancel.
+/// Samples a facet normal visible from wo (Dupuy and Benyoub 2023). The sine of the spherical cap comes from 1 - z,
+/// which does not cancel.
 FN vec3 sample_ggx_visible_normal(vec3 wo, float alpha, vec2 u) {
     vec3 w = normalize(vec3(wo.x * alpha, wo.y * alpha, wo.z));
     float one_minus_z = u.y * (1.0f + w.z);
@@ -52,7 +52,7 @@ FN vec3 sample_ggx_visible_normal(vec3 wo, float alpha, vec2 u) {
     return normalize(vec3(h.x * alpha, h.y * alpha, h.z));
 }
 
-/// Density of visible normals, per steradian of h; Heitz 2014, eq. 16, its cosine cancelled against G1's.
+/// Density of visible normals, per steradian of h: Heitz 2014, eq. 16. Its cosine cancels with the one in G1.
 FN float pdf_ggx_visible_normal(vec3 wo, vec3 h, float alpha) {
     return 2.0f * ggx_d(h, alpha) * max(dot(wo, h), 0.0f) / (wo.z + ggx_smith_length(wo, alpha));
 }
@@ -64,8 +64,8 @@ FN float ggx_eval(vec3 wo, vec3 wi, vec3 h, float alpha) {
     return 0.5f * ggx_d(h, alpha) * (wi.z / (o + i));
 }
 
-/// ggx_eval from cosines to the normal and the half vector's squared sine, for cosines that were raised to a least one: no directions have
-/// them. Where directions do, this is ggx_eval up to rounding.
+/// ggx_eval from cosines to the normal and the squared sine of the half vector. The caller may have raised the cosines
+/// to a floor, so that no directions have them. For cosines of real directions this is ggx_eval up to rounding.
 FN float ggx_eval_of_cosines(float cos_o, float cos_i, float cos_h, float sin2_h, float alpha) {
     float a2 = alpha * alpha;
     float t = ggx_stretch(cos_h, sin2_h, a2);

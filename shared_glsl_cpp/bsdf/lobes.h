@@ -1,4 +1,4 @@
-// Which part of a surface a direction was sampled from.
+// The lobe that a direction was sampled from.
 #ifndef LOBES_H
 #define LOBES_H
 
@@ -11,7 +11,7 @@ CONST uint LOBE_DIFFUSE = 1u;
 CONST uint LOBE_SPECULAR = 2u;
 CONST uint LOBE_MIRROR = 3u;
 
-// Added where a normal map tilts: the light met its facet, the tangent one, or both.
+// Added to the lobe where a normal map tilts: the facets that the path met, the mapped one, the tangent one or both.
 CONST uint FACET_MAPPED = 4u;
 CONST uint FACET_TANGENT = 8u;
 

@@ -1,5 +1,6 @@
-// The BSDF of a surface that is shaded by a normal map's normal: the diffuse lobe about the mapped normal, the specular lobe about one that
-// keeps reflections above the surface (docs/integrand.md, "Normal maps", equation 4). World space.
+// The BSDF of a surface that is shaded with a normal map's normal. The diffuse lobe is about the mapped normal. The
+// specular lobe is about a normal that keeps reflections above the surface (docs/integrand.md, "Normal maps", equation
+// 4). World space.
 #ifndef MAPPED_BSDF_H
 #define MAPPED_BSDF_H
 
@@ -8,7 +9,7 @@
 
 SHARED_BEGIN
 
-/// f cos and pdf. ng: on wo's side.
+/// f cos_i and pdf. ng is on wo's side.
 FN BsdfValue mapped_eval_pdf(IN(BsdfParameters) b, IN(SeenBsdf) seen, vec3 ng, vec3 wi, uint features) {
     BsdfValue sum;
     sum.value = vec3(0.0f, 0.0f, 0.0f);
@@ -38,7 +39,7 @@ FN BsdfValue mapped_eval_pdf(IN(BsdfParameters) b, IN(SeenBsdf) seen, vec3 ng, v
     return sum;
 }
 
-/// A direction by one of the lobes. u_lobe picks it.
+/// Samples a direction from one of the lobes, which u_lobe picks.
 FN BsdfSample mapped_sample(IN(BsdfParameters) b, IN(SeenBsdf) seen, vec3 ng, float u_lobe, vec2 u, uint features) {
     BsdfSample r = bsdf_null_sample();
     if (seen.p_specular < 0.0f) {
@@ -62,7 +63,7 @@ FN BsdfSample mapped_sample(IN(BsdfParameters) b, IN(SeenBsdf) seen, vec3 ng, fl
         }
         vec3 reflected = normalize(2.0f * o_dot_h * h - seen.wo_local);
         if (!(reflected.z > COS_MIN)) {
-            return r;  // below q's horizon
+            return r;  // below the horizon of the specular normal
         }
         direction = normalize(to_world(seen.frame, reflected));
         if (dot(direction, ng) < 0.0f) {

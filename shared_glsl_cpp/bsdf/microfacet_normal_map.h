@@ -1,7 +1,8 @@
-// The facets that can stand for a normal map (Schüssler, Heitz, Hanika and Dachsbacher 2017, Microfacet-based normal
-// mapping): the mapped facet p, and upright on the surface the tangent facet t, a perfect mirror, which closes the gap so that no light is
-// lost to black. Their model follows light over a few facets and drops the rest. Here light that p reflects leaves after at most one more
-// mirror reflection, so that a map takes no energy at any tilt (docs/decisions/0008). World space, unit vectors.
+// The two facets that represent a normal map (Schüssler, Heitz, Hanika and Dachsbacher 2017, "Microfacet-based normal
+// mapping"). p is the mapped facet. t is the tangent facet, perpendicular to the surface: a perfect mirror that closes
+// the gap, so that no light is lost. The paper follows light over a few facets and drops the rest. Here light that p
+// reflects leaves after at most one more mirror reflection, so a map absorbs no energy at any tilt
+// (docs/decisions/0008). World space, unit vectors.
 #ifndef MICROFACET_NORMAL_MAP_H
 #define MICROFACET_NORMAL_MAP_H
 
@@ -10,19 +11,19 @@
 SHARED_BEGIN
 
 struct FacetPair {
-    vec3 normal;   // of the surface, g
+    vec3 normal;   // g, of the surface
     vec3 facet;    // p
-    vec3 tangent;  // t, across g, leaning against p
+    vec3 tangent;  // t, perpendicular to g, on the side that p leans away from
     float cosine;  // p·g
     float sine;
-    uint tilted;  // 0: p is g, and the rest is void
+    uint tilted;  // 0: p equals g, and `tangent` is undefined
 };
 
-/// `normal` is the shading normal as bent; the mapped one is turned along with it.
+/// `normal` is the bent shading normal. The mapped normal is rotated along with it.
 FN FacetPair make_facet_pair(vec3 shading_normal, vec3 normal, vec3 mapped_normal) {
     FacetPair m;
     m.normal = normal;
-    // The rotation of shading_normal onto normal.
+    // Rotates by the rotation that takes shading_normal to normal.
     vec3 both = shading_normal + normal;
     float turn = dot(both, mapped_normal) / (1.0f + dot(shading_normal, normal));
     vec3 p = mapped_normal + 2.0f * dot(shading_normal, mapped_normal) * normal - turn * both;
@@ -36,14 +37,14 @@ FN FacetPair make_facet_pair(vec3 shading_normal, vec3 normal, vec3 mapped_norma
     return m;
 }
 
-/// Probability that what arrives along w meets the mapped facet, not the tangent one.
+/// Probability that light arriving from w meets the mapped facet and not the tangent facet.
 FN float mapped_facet_probability(IN(FacetPair) m, vec3 w) {
     float p = max(dot(w, m.facet), 0.0f);
     float t = max(dot(w, m.tangent), 0.0f) * m.sine;
     return p > 0.0f ? p / (p + t) : 0.0f;
 }
 
-/// Masking of w by the other facet.
+/// Masking of the direction w by the other facet.
 FN float facet_masking(IN(FacetPair) m, vec3 w) {
     float p = max(dot(w, m.facet), 0.0f);
     float t = max(dot(w, m.tangent), 0.0f) * m.sine;
@@ -51,20 +52,21 @@ FN float facet_masking(IN(FacetPair) m, vec3 w) {
     return g < p + t ? g / (p + t) : 1.0f;
 }
 
-/// Off the mirror of the tangent facet; its own inverse.
+/// Reflection in the tangent facet. It is its own inverse.
 FN vec3 tangent_reflect(IN(FacetPair) m, vec3 w) {
     return normalize(w - 2.0f * dot(w, m.tangent) * m.tangent);
 }
 
-/// Off the mirror of the surface itself: how light leaves that the facet sent below; its own inverse.
+/// Reflection in the surface: how light leaves that the mapped facet sent below the surface. It is its own inverse.
 FN vec3 surface_reflect(IN(FacetPair) m, vec3 w) {
     return normalize(w - 2.0f * dot(w, m.normal) * m.normal);
 }
 
-/// Ways to leave: straight off the mapped facet, by the tangent one, by the surface.
+/// Exits: 0 directly from the mapped facet, 1 by way of the tangent facet, 2 by reflection in the surface.
 CONST uint FACET_EXITS = 3u;
 
-/// For what leaves along `wi`, above the surface: how the mapped facet sent it, and the share of that direction that goes this way.
+/// For light that leaves along `wi`, above the surface, by way of `exit`: the direction `sent` in which the mapped
+/// facet reflected it. Returns the share of that direction that takes this exit.
 FN float facet_exit(IN(FacetPair) m, vec3 wi, uint exit, OUT(vec3) sent) {
     if (exit == 0u) {
         sent = wi;

@@ -1,4 +1,4 @@
-// Normals that fit the direction they are seen from. World space, unit vectors.
+// Normals adapted to the direction they are seen from. World space, unit vectors.
 #ifndef SHADING_NORMAL_H
 #define SHADING_NORMAL_H
 
@@ -6,9 +6,9 @@
 
 SHARED_BEGIN
 
-CONST float BENT_COS = 1.0e-3f;    // of wo to the normal it is shaded with, at the least
-CONST float MAPPED_COS = 1.0e-2f;  // of a mapped normal to the surface, at the least
-CONST float TANGENT_SINE = 1.0e-4f;  // of a tangent to the normal; below, the tangent gives no direction across it
+CONST float BENT_COS = 1.0e-3f;    // smallest cosine of wo to the normal it is shaded with
+CONST float MAPPED_COS = 1.0e-2f;  // smallest cosine of a mapped normal to the geometric normal
+CONST float TANGENT_SINE = 1.0e-4f;  // smallest sine of a tangent to the normal; below it the tangent is unusable
 
 /// The unit vector nearest to v whose cosine to the unit `axis` is at least `cos_min`; `axis` itself where v opposes
 /// it.
@@ -25,8 +25,9 @@ FN vec3 bend_toward(vec3 v, vec3 axis, float cos_min) {
     return normalize(cos_min * axis + (safe_sqrt(1.0f - cos_min * cos_min) * inversesqrt(across2)) * across);
 }
 
-/// The normal to shade with: ns, turned just so far that wo is above it. At the silhouette of a coarse smooth mesh wo
-/// sees the triangle but is below the interpolated normal's horizon, and the surface would be black. ng: on wo's side.
+/// The normal to shade with: ns, rotated just far enough that wo is above its horizon. At the silhouette of a coarse
+/// smooth mesh wo can see the triangle and yet be below the interpolated normal's horizon; without the rotation such
+/// pixels are black. ng is on wo's side.
 FN vec3 bent_normal(vec3 ns, vec3 ng, vec3 wo) {
     vec3 n = bend_toward(ns, wo, BENT_COS);
     return dot(n, ng) > 0.0f ? n : ng;

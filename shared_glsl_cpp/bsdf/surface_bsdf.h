@@ -1,4 +1,4 @@
-// The BSDF at a hit, in world space: what kernels call.
+// The BSDF at a hit, in world space: the functions that kernels call.
 #ifndef SURFACE_BSDF_H
 #define SURFACE_BSDF_H
 
@@ -30,7 +30,8 @@ FN SeenBsdf see_bsdf(IN(SurfaceBsdf) s, vec3 wo, uint features) {
     return seen;
 }
 
-/// f |cos_i| and its pdf, without delta lobes. No light leaks through the triangle: both directions must be on its outer side.
+/// f |cos_i| and its pdf, without delta lobes. Both are 0 unless both directions are on the triangle's outer side, so
+/// no light leaks through it.
 FN BsdfValue surface_bsdf_eval_pdf(IN(SurfaceBsdf) s, IN(SeenBsdf) seen, vec3 wi, uint features) {
     BsdfValue r;
     r.value = vec3(0.0f, 0.0f, 0.0f);
@@ -63,7 +64,8 @@ FN float surface_bsdf_pdf(IN(SurfaceBsdf) s, vec3 wo, vec3 wi, uint features) {
     return r.pdf;
 }
 
-/// A direction in world space, unit, on the triangle's outer side. `u_lobe`: x picks the lobe, y the facet of a microfacet normal map.
+/// Samples a unit direction in world space on the triangle's outer side. u_lobe.x picks the lobe, u_lobe.y the facet
+/// of a microfacet normal map.
 FN BsdfSample surface_bsdf_sample(IN(SurfaceBsdf) s, IN(SeenBsdf) seen, vec2 u_lobe, vec2 u, uint features) {
     BsdfSample r = bsdf_null_sample();
     if (!seen.reflects) {
@@ -80,7 +82,7 @@ FN BsdfSample surface_bsdf_sample(IN(SurfaceBsdf) s, IN(SeenBsdf) seen, vec2 u_l
         r = bsdf_sample_local(s.parameters, seen.wo_local, seen.p_specular, u_lobe.x, u, features);
         r.direction = to_world(seen.frame, r.direction);
         if (r.delta != 0u) {
-            r.direction = normalize(r.direction);  // a chain of mirrors would add up its roundings
+            r.direction = normalize(r.direction);  // else rounding accumulates over a chain of mirrors
         }
     }
     if (!(dot(r.direction, s.geometric_normal) > 0.0f)) {

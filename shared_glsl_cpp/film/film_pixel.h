@@ -1,5 +1,5 @@
-// What a pixel keeps. Sums are pairs of floats (Dekker 1971), so that they hold beyond 10^7 samples in fp32, and squares are taken
-// about the pixel's first sample, so that the variance of a constant pixel is exactly zero.
+// The film's data of one pixel. Sums are pairs of floats (Dekker 1971), so that they stay accurate beyond 10^7 samples
+// in fp32. Squares are taken about the pixel's first sample, so that the variance of a constant pixel is exactly zero.
 #ifndef FILM_PIXEL_H
 #define FILM_PIXEL_H
 
@@ -7,14 +7,14 @@
 
 SHARED_BEGIN
 
-/// Radiance sums; the estimate is (sum + compensation) / (samples), where dropped samples count as none.
+/// Radiance sums. The estimate is (sum + compensation) / samples.
 struct FilmPixel {
     vec3 sum;
     vec3 compensation;
-    uint samples;     // averaged; dropped ones are in `nonfinite`
-    uint nonfinite;   // dropped: NaN, infinite, negative, or more than the sum holds
+    uint samples;     // averaged; dropped samples count in `nonfinite` only
+    uint nonfinite;   // dropped: NaN, infinite, negative, or too large for the sum
     uint rays;        // traced for this pixel, modulo 2^32
-    uint ray_wraps;   // and how often that count began anew
+    uint ray_wraps;   // how often `rays` has overflowed
 };
 ASSERT_SIZE(FilmPixel, 40);
 
@@ -26,11 +26,11 @@ struct FilmMoments {
 };
 ASSERT_SIZE(FilmMoments, 36);
 
-/// Means of the first hit over all samples, dropped ones included; a miss counts as zero. Running means, not sums, so that they hold
-/// for any number of samples.
+/// Means of the first hit over all samples, including dropped ones; a miss counts as zero. These are running means,
+/// not sums, so that they stay accurate for any number of samples.
 struct FilmFirstHit {
     vec3 albedo;
-    vec3 normal;  // shading normal, world
+    vec3 normal;  // shading normal, world space
     float depth;  // distance to the camera, metres
 };
 ASSERT_SIZE(FilmFirstHit, 28);
@@ -42,8 +42,9 @@ struct FirstHit {
     float depth;
 };
 
-/// sum + compensation += x, componentwise. What the sum loses is carried over, and the pair is normalised, so that the
-/// compensation stays below half an ulp of the sum: left to grow, it would round like any fp32 sum.
+/// sum + compensation += x, componentwise. The rounding error of the sum goes into the compensation. The pair is
+/// normalised, so that the compensation stays below half an ulp of the sum; a larger one would round like any fp32
+/// sum.
 FN void compensated_add(INOUT(vec3) sum, INOUT(vec3) compensation, vec3 x) {
     PRECISE vec3 t = sum + x;
     PRECISE vec3 from_sum = (sum - t) + x;
@@ -58,7 +59,7 @@ FN void compensated_add(INOUT(vec3) sum, INOUT(vec3) compensation, vec3 x) {
     compensation = MUTANT(FILM_SUMS_PLAIN, rest, vec3(0.0f, 0.0f, 0.0f));
 }
 
-/// NaN, infinity or negative, by the bits: a compiler may fold `isnan` away.
+/// Whether x is NaN, infinite or negative. Tested by the bits, because a compiler may remove `isnan`.
 FN bool is_bad_component(float x) {
     uint bits = floatBitsToUint(x);
     return (bits & 0x7fffffffu) >= 0x7f800000u || ((bits >> 31) != 0u && (bits & 0x7fffffffu) != 0u);
@@ -66,7 +67,7 @@ FN bool is_bad_component(float x) {
 
 FN bool is_bad_sample(vec3 x) { return is_bad_component(x.x) || is_bad_component(x.y) || is_bad_component(x.z); }
 
-/// Adds one sample; a bad one is dropped and counted. Returns whether it was kept.
+/// Adds one sample. A bad sample is dropped and counted. Returns whether the sample was kept.
 FN bool film_add(INOUT(FilmPixel) pixel, vec3 radiance, uint rays) {
     pixel.rays += rays;
     pixel.ray_wraps += pixel.rays < rays ? 1u : 0u;
@@ -79,7 +80,7 @@ FN bool film_add(INOUT(FilmPixel) pixel, vec3 radiance, uint rays) {
     return true;
 }
 
-/// Adds a kept sample's square; `samples` is the count that already includes it.
+/// Adds the square of a sample that was kept. `samples` is the count that already includes it.
 FN void film_add_moments(INOUT(FilmMoments) moments, vec3 radiance, uint samples) {
     if (samples == 1u) {
         moments.first = radiance;
@@ -88,7 +89,7 @@ FN void film_add_moments(INOUT(FilmMoments) moments, vec3 radiance, uint samples
     compensated_add(moments.sum_squares, moments.compensation, deviation * deviation);
 }
 
-/// `samples` is the count that already includes this one.
+/// `samples` is the count that already includes this sample.
 FN void film_add_first_hit(INOUT(FilmFirstHit) film, IN(FirstHit) hit, uint samples) {
     float share = 1.0f / float(samples);
     film.albedo += share * (hit.albedo - film.albedo);

@@ -1,5 +1,5 @@
-// The colours of heat maps. X(red, green, blue): every 17th of the 256 entries of 'magma', in display values; linear interpolation between
-// them errs by less than a code of 8 bits or two.
+// The colour map of heat maps. X(red, green, blue) is every 17th of the 256 entries of 'magma', in display values.
+// Linear interpolation between them is off by at most two codes of 8 bits.
 #ifndef MAGMA_H
 #define MAGMA_H
 

@@ -1,11 +1,12 @@
-// Whether a candidate hit counts, on surfaces that are not opaque everywhere.
+// Whether a candidate hit counts on a surface with alpha.
 #ifndef ALPHA_KERNEL_H
 #define ALPHA_KERNEL_H
 
 #include "geometry/texture.kernel.h"
 
-/// MASK by its cutoff; BLEND at random, with the opacity as probability, so that transparency costs no extra rays. The random number
-/// is a hash of the ray's key and the triangle: asked twice, the answer is the same, and order does not matter.
+/// MASK compares with its cutoff. BLEND accepts at random with the opacity as probability, so that transparency costs
+/// no extra rays. The random number is a hash of the ray's key and the triangle, so repeated tests of one hit agree,
+/// and their order does not matter.
 FN bool accepts_hit(uint instance, uint geometry, uint primitive, vec2 barycentrics, uint alpha_key) {
     LOCAL(Geometry) g = load_geometries(load_instances(instance).first_geometry + geometry);
     LOCAL(Material) material = load_materials(g.material);

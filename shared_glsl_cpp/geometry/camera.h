@@ -1,4 +1,4 @@
-// Rays from the film.
+// Camera rays.
 #ifndef CAMERA_H
 #define CAMERA_H
 
@@ -7,9 +7,10 @@
 
 SHARED_BEGIN
 
-/// The ray through a film point in [0, 1]^2, y down, and a point `lens` of the unit square, mapped to the lens, whose
-/// centre is the pinhole's; under an orthographic camera each film point has a lens of its own. `direction` is unit.
-/// `thin_lens` and `orthographic_allowed` are features: where false, the camera's data is not asked.
+/// The ray through a film point and a lens point. `film` is in [0, 1]^2, y down. `lens` is in the unit square, which
+/// is mapped to the lens disk about the pinhole. Under an orthographic camera each film point has a lens disk of its
+/// own. `direction` is unit. `thin_lens` and `orthographic_allowed` are features: where one is false, the camera's
+/// data for it are not read.
 FN void camera_ray(IN(Camera) c, vec2 film, vec2 lens, bool thin_lens, bool orthographic_allowed, OUT(vec3) origin,
                    OUT(vec3) direction) {
     float x = 2.0f * film.x - 1.0f;
@@ -31,7 +32,8 @@ FN void camera_ray(IN(Camera) c, vec2 film, vec2 lens, bool thin_lens, bool orth
     direction = normalize(toward);
 }
 
-/// Where the camera sees a point through the middle of its lens: a film point in [0, 1]^2, y down. False where it is behind.
+/// Projects a world position through the centre of the lens to a film point in [0, 1]^2, y down. Returns false for a
+/// position behind the camera.
 FN bool camera_project(IN(Camera) c, vec3 position, OUT(vec2) film) {
     vec3 toward = position - c.origin;
     float along = dot(toward, c.forward);

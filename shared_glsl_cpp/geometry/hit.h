@@ -1,4 +1,5 @@
-// What tracing returns: ids and barycentrics only; positions are rebuilt from them, exactly, by `surface.kernel.h`.
+// The result of tracing a ray: ids, barycentrics and distance. `surface.kernel.h` computes the position from the ids
+// and the ray.
 #ifndef HIT_H
 #define HIT_H
 
@@ -7,11 +8,11 @@
 SHARED_BEGIN
 
 struct Hit {
-    uint instance;      // NONE: a miss
-    uint geometry;      // the primitive's place within its mesh
-    uint primitive;     // triangle within the geometry
+    uint instance;      // NONE for a miss
+    uint geometry;      // index of the glTF primitive within its mesh
+    uint primitive;     // index of the triangle within the geometry
     vec2 barycentrics;  // of the second and third vertex
-    float t;            // in lengths of the ray's direction
+    float t;            // in units of the length of the ray's direction
 };
 ASSERT_SIZE(Hit, 24);
 

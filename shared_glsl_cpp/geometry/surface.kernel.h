@@ -1,19 +1,19 @@
-// From a hit's ids and its ray to the surface that is shaded.
+// Computes the surface to shade from a hit's ids and the ray.
 #ifndef SURFACE_KERNEL_H
 #define SURFACE_KERNEL_H
 
 #include "geometry/texture.kernel.h"
 
-/// A hit in world space, rebuilt from its ids and from the ray that found it (load_surface), with an origin for rays that leave it
-/// (Wächter and Binder 2019).
+/// A hit in world space, recomputed by load_surface from the hit's ids and the ray that found it, with the origin of
+/// rays that leave it (Wächter and Binder 2019).
 struct Surface {
     vec3 position;
     vec3 normal;       // geometric, unit, of the front face
-    vec3 start;        // off the triangle's edges: what offset_ray moves where rays leave
-    vec3 magnitude;    // of what `position` was added up from, for offset_ray
+    vec3 start;        // `position` moved away from the triangle's edges; input of offset_ray
+    vec3 magnitude;    // of the terms that `position` was summed from; input of offset_ray
     MeshPoint mesh;
     uint instance;
-    uint emitter_slot; // into emitter_slots; NONE where the instance emits nothing
+    uint emitter_slot; // index into emitter_slots; NONE where the instance emits nothing
     uint primitive;
 };
 
@@ -24,7 +24,7 @@ FN vec3 transform_vector(IN(Instance) i, vec3 v) {
     return w;
 }
 
-/// Bounds the terms of transform_point for points that are nowhere larger than `size`.
+/// Bounds the terms of transform_point for points whose coordinates are at most `size`.
 FN vec3 transform_magnitude(IN(Instance) i, vec3 size) {
     return vec3(dot(abs(xyz(i.row_0)), size) + abs(i.row_0.w), dot(abs(xyz(i.row_1)), size) + abs(i.row_1.w),
                 dot(abs(xyz(i.row_2)), size) + abs(i.row_2.w));
@@ -35,7 +35,8 @@ FN vec3 transform_point(IN(Instance) i, vec3 p) {
     return q;
 }
 
-/// Normals go by the cofactor matrix, the inverse transpose up to a positive factor once a mirrored instance's sign is put back.
+/// Transforms a normal by the cofactor matrix, which is the inverse transpose up to a factor. The sign of the factor
+/// is corrected for a mirrored instance.
 FN vec3 transform_normal(IN(Instance) i, vec3 n) {
     vec3 r0 = xyz(i.row_0);
     vec3 r1 = xyz(i.row_1);
@@ -45,13 +46,13 @@ FN vec3 transform_normal(IN(Instance) i, vec3 n) {
     return i.mirrored != 0u ? -m : m;
 }
 
-/// a x b, without contraction: what is 0 on one backend is 0 on the other.
+/// a x b, without contraction into fused multiply-adds, so that a 0 on one backend is a 0 on the other.
 FN vec3 exact_cross(vec3 a, vec3 b) {
     PRECISE vec3 n = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
     return n;
 }
 
-/// v / |v|, or the fallback where v has no direction.
+/// v / |v|, or `fallback` where v has no direction.
 FN vec3 normalize_or(vec3 v, vec3 fallback) {
     float squared = dot(v, v);
     if (squared > 1e-30f && squared < 1e30f) {
@@ -65,8 +66,8 @@ FN vec3 normalize_or(vec3 v, vec3 fallback) {
     return w * inversesqrt(dot(w, w));
 }
 
-/// Where a ray meets a triangle (Möller and Trumbore 1997), as barycentrics of the second and third vertex within it. `fallback` where
-/// ray and triangle are parallel.
+/// Where a ray meets a triangle, as barycentrics of the second and third vertex, clamped to the triangle (Möller and
+/// Trumbore 1997). Returns `fallback` where the ray is parallel to the triangle.
 FN vec2 meet_triangle(vec3 origin, vec3 direction, vec3 vertex, vec3 edge_1, vec3 edge_2, vec2 fallback) {
     vec3 p = exact_cross(direction, edge_2);
     PRECISE vec3 from_vertex = origin - vertex;
@@ -84,8 +85,9 @@ FN vec2 meet_triangle(vec3 origin, vec3 direction, vec3 vertex, vec3 edge_1, vec
     return met;
 }
 
-/// The surface that a ray from `origin` along `direction` was found to meet. Every intersector rounds the place where they meet in its
-/// own way; it is computed anew, so that the same ray meets the same point on every backend.
+/// The surface where a ray from `origin` along `direction` met `hit`. Each intersector rounds the intersection
+/// differently. It is therefore recomputed here from the ray, so that the same ray meets the same point on every
+/// backend.
 FN Surface load_surface(IN(Hit) hit, IN(Instance) instance, vec3 origin, vec3 direction) {
     Surface s;
     LOCAL(Geometry) g = load_geometries(instance.first_geometry + hit.geometry);
@@ -113,7 +115,7 @@ FN Surface load_surface(IN(Hit) hit, IN(Instance) instance, vec3 origin, vec3 di
     return s;
 }
 
-/// The interpolated normal, on the front side; the geometric one where the mesh has none.
+/// The interpolated normal, on the front side; the geometric normal where the mesh has no normals.
 FN vec3 interpolated_normal(IN(Surface) s, IN(Instance) instance) {
     uint first = s.mesh.geometry.first_normal;
     if (first == NONE) {
@@ -126,7 +128,7 @@ FN vec3 interpolated_normal(IN(Surface) s, IN(Instance) instance) {
     return normalize_or(transform_normal(instance, n), s.normal);
 }
 
-/// The normal that a normal map gives about `normal`; that one where the mesh has no usable tangent.
+/// The normal that a normal map gives about `normal`; `normal` itself where the mesh has no usable tangent.
 FN vec3 mapped_normal(IN(Surface) s, IN(Instance) instance, IN(Material) material, vec3 normal) {
     uint first = s.mesh.geometry.first_tangent;
     if (first == NONE) {
@@ -151,7 +153,7 @@ FN vec3 mapped_normal(IN(Surface) s, IN(Instance) instance, IN(Material) materia
     return normalize_or(n, normal);
 }
 
-/// What scatters light at a surface seen from `wo`; its normals all face wo's side.
+/// The BSDF of a surface seen from `wo`. All its normals are on wo's side.
 FN SurfaceBsdf load_bsdf(IN(Surface) s, IN(Instance) instance, IN(Material) material, vec3 wo) {
     SurfaceBsdf bsdf;
     vec3 base = xyz(base_color(material, s.mesh));

@@ -1,11 +1,11 @@
-// Textures, filtered by our own arithmetic over raw texels, so that both backends see the same value.
+// Textures, filtered in shared code over raw texels, so that both backends get the same value.
 #ifndef TEXTURE_KERNEL_H
 #define TEXTURE_KERNEL_H
 
 #include "leaves.h"
 
-/// One coordinate brought near [0, 1] by its wrap mode before it is scaled, so that large coordinates keep their fraction; NaN
-/// becomes 0.
+/// Brings one coordinate near [0, 1] by its wrap mode. This happens before the coordinate is scaled to texels, so that
+/// large coordinates keep their fraction. NaN becomes 0.
 FN float wrapped_coordinate(float u, uint mode) {
     float w = u;
     if (mode == WRAP_REPEAT) {
@@ -18,7 +18,7 @@ FN float wrapped_coordinate(float u, uint mode) {
     return w >= 0.0f && w <= 2.0f ? w : 0.0f;
 }
 
-/// Texel index in [0, size) of an index at most one texel outside what wrapped_coordinate can give.
+/// Texel index in [0, size). The input may be at most one texel outside the range of wrapped_coordinate.
 FN uint wrapped_texel(int i, uint size, uint mode) {
     int n = int(size);
     if (mode == WRAP_REPEAT) {
@@ -44,7 +44,7 @@ FN vec4 texel_fetch(uint slot_first_texel, uint index, bool srgb) {
     return vec4(float(r) * (1.0f / 255.0f), float(g) * (1.0f / 255.0f), float(b) * (1.0f / 255.0f), a);
 }
 
-/// The texture of a slot at the mesh's coordinates `uv`; rgb decoded where the slot says sRGB.
+/// The value of a texture slot at the mesh's coordinates `uv`. rgb is decoded where the slot is sRGB.
 FN vec4 sample_texture(IN(TextureSlot) slot, vec2 uv) {
     uint mode_u = (slot.flags >> TEXTURE_WRAP_U_SHIFT) & 3u;
     uint mode_v = (slot.flags >> TEXTURE_WRAP_V_SHIFT) & 3u;
@@ -68,15 +68,15 @@ FN vec4 sample_texture(IN(TextureSlot) slot, vec2 uv) {
     vec4 b = texel_fetch(slot.first_texel, y0 + x1, srgb);
     vec4 c = texel_fetch(slot.first_texel, y1 + x0, srgb);
     vec4 d = texel_fetch(slot.first_texel, y1 + x1, srgb);
-    vec4 upper = a + s * (b - a);  // in this form texels that are equal stay what they are
+    vec4 upper = a + s * (b - a);  // in this form equal texels interpolate to exactly their value
     vec4 lower = c + s * (d - c);
     return upper + t * (lower - upper);
 }
 
-/// Where on a mesh a material is read: enough to fetch any attribute.
+/// A point on a mesh: enough to fetch any attribute there.
 struct MeshPoint {
     Geometry geometry;
-    uvec3 triangle;     // vertex numbers within the geometry
+    uvec3 triangle;     // vertex indices within the geometry
     vec2 barycentrics;  // of the second and third vertex
 };
 
@@ -88,8 +88,8 @@ FN MeshPoint mesh_point(IN(Geometry) geometry, uint primitive, vec2 barycentrics
     return p;
 }
 
-// An attribute at a point of a mesh, from its values at the corners. An attribute that is equal at all three stays what it is: three
-// weights that sum to just below 1 would open holes where alpha equals its cutoff.
+// Interpolates an attribute from its values at the corners. An attribute that is equal at all three corners keeps
+// exactly its value. Three weights that sum to just below 1 would open holes where alpha equals its cutoff.
 FN vec2 interpolate(IN(MeshPoint) p, vec2 a, vec2 b, vec2 c) {
     return a + p.barycentrics.x * (b - a) + p.barycentrics.y * (c - a);
 }
@@ -113,7 +113,7 @@ FN vec2 mesh_uv(IN(MeshPoint) p, uint first_uv) {
     return interpolate(p, a, b, c);
 }
 
-/// The value of a slot at a point of a mesh; white where there is no texture.
+/// The value of a slot at a point of a mesh; white where the slot has no texture.
 FN vec4 slot_value(uint slot_index, IN(MeshPoint) p) {
     if (!feature(FEATURE_TEXTURES) || slot_index == NONE) {
         return vec4(1.0f, 1.0f, 1.0f, 1.0f);
@@ -123,7 +123,7 @@ FN vec4 slot_value(uint slot_index, IN(MeshPoint) p) {
     return sample_texture(slot, mesh_uv(p, second ? p.geometry.first_uv_1 : p.geometry.first_uv_0));
 }
 
-/// Base colour with its texture and the mesh's vertex colours; a is the opacity before alphaMode has its say.
+/// Base colour: factor times texture times vertex colour. The fourth component is alpha, before alphaMode is applied.
 FN vec4 base_color(IN(Material) material, IN(MeshPoint) p) {
     vec4 color = material.base_color * slot_value(material.base_color_slot, p);
     if (feature(FEATURE_VERTEX_COLORS) && p.geometry.first_color != NONE) {
@@ -135,7 +135,7 @@ FN vec4 base_color(IN(Material) material, IN(MeshPoint) p) {
     return color;
 }
 
-/// Coverage by alphaMode: 0 or 1 under MASK, the alpha itself under BLEND.
+/// Opacity by alphaMode: 0 or 1 under MASK, alpha under BLEND.
 FN float opacity(IN(Material) material, float alpha) {
     if ((material.flags & MATERIAL_ALPHA_MASK) != 0u) {
         return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;

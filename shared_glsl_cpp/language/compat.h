@@ -1,5 +1,6 @@
-// The two languages of these headers, and the only macros that tell them apart. The dialect is GLSL's; C++ borrows its names
-// from GLM one by one, so that the list below is the whole vocabulary and the C++ compiler is the linter.
+// The compatibility header of both languages, and the only file with macros that depend on the language. The dialect
+// is GLSL's. C++ imports its names from GLM one by one, so that the list below is the whole vocabulary and the C++
+// compiler acts as the linter.
 #ifndef COMPAT_H
 #define COMPAT_H
 
@@ -44,7 +45,7 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
-// GLM's compares and negates.
+// GLM's version compares and negates; the builtin is one instruction.
 inline float abs(float x) { return __builtin_fabsf(x); }
 inline vec3 abs(const vec3& v) { return vec3(abs(v.x), abs(v.y), abs(v.z)); }
 inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
@@ -88,7 +89,7 @@ uint multiply_high(uint a, uint b) {
 #error "shared headers compile as C++ or as Vulkan GLSL"
 #endif
 
-// A fault that tests have to find (tests/mutants): `right`, unless CMake's DIPTYCH_MUTANT put `wrong` into the build.
+// Mutation testing (tests/mutants): `right`, unless CMake's DIPTYCH_MUTANT selects this mutant; then `wrong`.
 #if defined(DIPTYCH_MUTANT)
 #include "mutant_switches.h"
 #define MUTANT(name, right, wrong) (MUTANT_##name ? (wrong) : (right))
@@ -97,7 +98,7 @@ uint multiply_high(uint a, uint b) {
 #endif
 
 SHARED_BEGIN
-CONST uint NONE = 0xffffffffu;  // index of nothing
+CONST uint NONE = 0xffffffffu;  // index that means "none"
 CONST float PI = 3.14159265358979f;
 CONST float INV_PI = 0.318309886183791f;
 CONST float INFINITE_DISTANCE = 3.0e38f;

@@ -1,5 +1,6 @@
-// GLSL leaves the order of a dot product's sum open, and with it the last bit of whatever is normalised. Here it is C++'s, without
-// contraction; on a chain of curved and bumpy surfaces that bit decides where the path goes (docs/decisions/0006).
+// Sums of fixed order. GLSL does not define the order of the sum in a dot product, so the last bit of any normalised
+// vector may differ between compilers. These functions use the order of C++, without contraction. On a chain of curved
+// and bumpy surfaces that bit decides where a path goes (docs/decisions/0006).
 vec3 xyz(vec4 v) { return v.xyz; }
 
 float ordered_dot(vec2 a, vec2 b) {

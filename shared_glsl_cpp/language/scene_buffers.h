@@ -1,5 +1,5 @@
-// The one list of a scene's arrays. Each backend expands it: bounds-asserted spans on the CPU; buffer references, the upload
-// loop and the memory report on the GPU. Elements are read through `load_NAME(index)` (hooks.md).
+// The only list of a scene's arrays. Each backend expands it: to bounds-asserted spans on the CPU; to buffer
+// references, uploads and the memory report on the GPU. Kernels read elements through `load_NAME(index)` (hooks.md).
 #ifndef SCENE_BUFFERS_H
 #define SCENE_BUFFERS_H
 
@@ -31,7 +31,7 @@
     X(EmissiveTriangle, previous_emissive_triangles) \
     X(PunctualLight, previous_punctual_lights)
 
-// Those that differ between two moments of a scene that moves.
+// The arrays that differ between two moments of an animated scene.
 #define MOVING_BUFFERS(X)                   \
     X(Instance, instances)                  \
     X(Material, materials)                  \

@@ -1,11 +1,12 @@
-// What a scene and its settings may need. A bit that is off removes the code (a specialization constant in GLSL) and the buffers
-// behind it; a bit that is on only allows it, and the data decides. So every bit on, `--generic`, gives the same image.
+// What a scene and its settings may need. A bit that is off removes the code (a specialization constant in GLSL) and
+// the buffers that belong to it. A bit that is on only permits them; the data decide. So a render with every bit on
+// (the setting `generic`) gives the same image.
 #ifndef SCENE_FEATURES_H
 #define SCENE_FEATURES_H
 
 #include "language/compat.h"
 
-// X(name on the command line, constant, bit)
+// X(name for users, constant, bit)
 #define FEATURE_LIST(X)                                \
     X("textures", FEATURE_TEXTURES, 0)                 \
     X("normal-maps", FEATURE_NORMAL_MAPS, 1)           \

@@ -1,11 +1,11 @@
-// Emissive triangles as lights: points sampled on them, their densities, and their light points.
+// Emissive triangles as lights: sampled points, their densities, and light points.
 #ifndef EMITTER_KERNEL_H
 #define EMITTER_KERNEL_H
 
 #include "geometry/surface.kernel.h"
 #include "lights/emission.kernel.h"
 
-/// The triangle as it is, or as it was at the moment that reuse looks back to.
+/// The triangle at the current moment, or at the previous one, for reuse from the frame before.
 FN EmissiveTriangle emissive_triangle_at(uint moment, uint id) {
     if (feature(FEATURE_MOTION) && moment == MUTANT(PREVIOUS_EMITTERS_CURRENT, MOMENT_PREVIOUS, NONE)) {
         return load_previous_emissive_triangles(id);
@@ -13,14 +13,14 @@ FN EmissiveTriangle emissive_triangle_at(uint moment, uint id) {
     return load_emissive_triangles(id);
 }
 
-/// Density per solid angle, pick included, with which sample_emitter finds `point` of the triangle from `reference`.
+/// Density per solid angle, including the pick of the light, with which sample_emitter finds `point` from `reference`.
 FN float pdf_emitter(IN(EmissiveTriangle) light, vec3 reference, vec3 point) {
     PRECISE vec3 to_vertex_0 = light.vertex_0 - reference;
     TriangleView view = triangle_view(to_vertex_0, light.edge_1, light.edge_2, light.front, light.double_area);
     return light.pmf * pdf_triangle_view(view, point - reference);
 }
 
-/// Density with which `reference` would have sampled this point of a surface as a light, from the hit's ids.
+/// Density per solid angle with which light sampling from `reference` finds this point of a surface.
 FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
     if (!feature(FEATURE_EMISSIVE) || s.emitter_slot == NONE) {
         return 0.0f;
@@ -32,25 +32,25 @@ FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
     return pdf_emitter(load_emissive_triangles(first + s.primitive), reference, s.position);
 }
 
-/// Whether the back of the light, or its edge, is what `reference` sees.
+/// Whether `reference` sees the light's back or its edge.
 FN bool is_behind(IN(EmissiveTriangle) light, vec3 reference) {
     return dot(light.vertex_0 - reference, light.front) >= 0.0f;
 }
 
-/// A point of the light, off its surface on the side that emits, or on the other.
+/// A point of the light, moved off its surface to the side that emits, or, if `behind`, to the other side.
 FN vec3 emitter_end(IN(EmissiveTriangle) light, vec3 point, bool behind) {
     vec3 magnitude = abs(light.vertex_0) + abs(light.edge_1) + abs(light.edge_2);
     return offset_ray(point, behind ? -light.front : light.front, magnitude);
 }
 
-/// A point of the light, as triangle_sampling.h picks it.
+/// Samples a point of the light as seen from `reference` (triangle_sampling.h).
 FN TriangleSample sample_emitter_point(IN(EmissiveTriangle) light, vec3 reference, vec2 u) {
     PRECISE vec3 to_vertex_0 = light.vertex_0 - reference;
     TriangleView view = triangle_view(to_vertex_0, light.edge_1, light.edge_2, light.front, light.double_area);
     return sample_triangle_view(view, to_vertex_0, light.edge_1, light.edge_2, u);
 }
 
-/// The light at a point by sample_emitter_point.
+/// The light sample for a point of sample_emitter_point.
 FN LightSample sample_emitter(IN(EmissiveTriangle) light, vec3 reference, IN(TriangleSample) t) {
     LightSample s = no_light();
     if (!(t.pdf > 0.0f)) {
@@ -65,7 +65,7 @@ FN LightSample sample_emitter(IN(EmissiveTriangle) light, vec3 reference, IN(Tri
     return s;
 }
 
-/// Whether rays pass through the emitter in places, by its alpha.
+/// Whether rays may pass through the emitter, because of its alpha.
 FN bool may_be_passed(IN(EmissiveTriangle) light) {
     if (!feature(FEATURE_ALPHA) || !feature(FEATURE_EMISSIVE_TEXTURES) || (light.flags & EMITTER_VARIES) == 0u) {
         return false;

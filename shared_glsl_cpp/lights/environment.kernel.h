@@ -1,4 +1,4 @@
-// The environment as a light: its radiance, directions sampled toward it, and its light points.
+// The environment as a light: its radiance, sampled directions, and light points.
 #ifndef ENVIRONMENT_KERNEL_H
 #define ENVIRONMENT_KERNEL_H
 
@@ -12,7 +12,7 @@ FN vec4 environment_texel(int x, int y) {
     return load_environment_texels(uint(row * w + column));
 }
 
-/// Radiance from infinity against `direction`, bilinear between texel centres.
+/// Radiance that arrives from `direction`, interpolated bilinearly between texel centres.
 FN vec3 environment_radiance(vec3 direction) {
     if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
         vec2 uv = environment_uv(direction, constants.environment.rotation);
@@ -34,13 +34,14 @@ FN vec3 environment_radiance(vec3 direction) {
     return vec3(0.0f, 0.0f, 0.0f);
 }
 
-/// Density per solid angle, pick included, with which sample_environment finds `direction` in a texel of this probability.
+/// Density per solid angle, including the pick of the light, with which sample_environment finds `direction` in a
+/// texel of probability `texel_pmf`.
 FN float pdf_environment_texel(float texel_pmf, vec3 direction) {
-    float sin_theta = sqrt(direction.x * direction.x + direction.z * direction.z);  // keeps its digits at the poles
+    float sin_theta = sqrt(direction.x * direction.x + direction.z * direction.z);  // accurate near the poles
     return constants.environment.pmf * pdf_environment_solid_angle(texel_pmf, constants.environment.size, sin_theta);
 }
 
-/// Density per solid angle, pick included, with which sample_environment finds `direction`.
+/// Density per solid angle, including the pick of the light, with which sample_environment finds `direction`.
 FN float pdf_environment(vec3 direction) {
     if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
         uvec2 size = constants.environment.size;
@@ -52,7 +53,7 @@ FN float pdf_environment(vec3 direction) {
     return constants.environment.pmf * (0.25f * INV_PI);
 }
 
-/// `more` are two random words for the map's alias table. Without its radiance.
+/// Samples a direction; the caller sets the radiance. `more` are two random words for the map's alias table.
 FN LightSample sample_environment_direction(uvec2 more, vec2 u) {
     LightSample s = no_light();
     s.distant = true;
@@ -63,7 +64,7 @@ FN LightSample sample_environment_direction(uvec2 more, vec2 u) {
         float x = (float(texel % size.x) + u.x) / float(size.x);
         float y = (float(texel / size.x) + u.y) / float(size.y);
         s.direction = environment_direction(vec2(x, y), constants.environment.rotation);
-        // Of the texel picked, though its edge may round into a dimmer neighbour.
+        // The pdf of the texel that was picked: at its edge the direction may round into a neighbour.
         s.pdf = pdf_environment_texel(load_environment_texels(texel).w, s.direction);
     } else {
         s.direction = sample_uniform_sphere(u);
@@ -82,7 +83,8 @@ FN LightSample sample_environment(IN(Sampler) random, uint dimension, vec2 u) {
     return s;
 }
 
-/// Directions as uv: x is 1 - |z| with z's sign, y the turn about z in [0, 1). Keeps its digits at both poles; 2 pi sr per uv.
+/// A direction as uv: x is 1 - |z| with the sign of z; y is the angle about z, in [0, 1). Accurate at both poles.
+/// Every unit of uv covers 2 pi sr.
 FN vec2 direction_uv(vec3 d) {
     float sine2 = d.x * d.x + d.y * d.y;
     float height = sine2 / (1.0f + abs(d.z));

@@ -1,5 +1,5 @@
-// Equirectangular maps: u = 1/2 looks along -Z and grows toward +X, v = 0 is +Y. `rotation` is the cosine and sine of
-// the map's turn about +Y, counter-clockwise seen from above.
+// Equirectangular maps. u = 1/2 is -Z, and u grows toward +X; v = 0 is +Y. `rotation` is the cosine and sine of the
+// map's rotation about +Y, counter-clockwise seen from above.
 #ifndef ENVIRONMENT_MAPPING_H
 #define ENVIRONMENT_MAPPING_H
 
@@ -7,7 +7,7 @@
 
 SHARED_BEGIN
 
-/// u in [0, 1), v in [0, 1]; the direction's length is not asked.
+/// u in [0, 1), v in [0, 1]. The direction may have any length.
 FN vec2 environment_uv(vec3 direction, vec2 rotation) {
     float x = rotation.x * direction.x - rotation.y * direction.z;
     float z = rotation.y * direction.x + rotation.x * direction.z;
@@ -29,7 +29,7 @@ FN vec3 environment_direction(vec2 uv, vec2 rotation) {
     return vec3(rotation.x * x + rotation.y * z, cos_theta, rotation.x * z - rotation.y * x);
 }
 
-/// Pdf of a direction within a texel of probability texel_pmf, uniform in (u, v) there; 0 at the poles.
+/// Pdf of a direction in a texel of probability texel_pmf, uniform in (u, v) within the texel; 0 at the poles.
 FN float pdf_environment_solid_angle(float texel_pmf, uvec2 size, float sin_theta) {
     if (!(sin_theta > 0.0f)) {
         return 0.0f;

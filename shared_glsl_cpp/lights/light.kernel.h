@@ -1,6 +1,6 @@
-// Any light: the one switch over kinds of light (light_kind). A light's id says its kind by the order in which lights lie: emissive
-// triangles, punctual lights, the environment. Paths sample lights from a vertex, per solid angle (sample_light); resampling names points
-// on lights, per uv (light_point.h).
+// Any light: the only switch over kinds of light (light_kind). The id of a light determines its kind: emissive
+// triangles come first, then punctual lights, then the environment. Paths sample lights from a vertex, per solid angle
+// (sample_light). Resampling uses points on lights, per uv (light_point.h).
 #ifndef LIGHT_KERNEL_H
 #define LIGHT_KERNEL_H
 
@@ -19,13 +19,14 @@ FN uint light_kind(uint id) {
 
 FN bool is_emitter(uint id) { return light_kind(id) == LIGHT_EMITTER; }
 
-/// Into punctual_lights.
+/// Index into punctual_lights.
 FN uint punctual_index(uint id) { return id - constants.emissive_triangle_count; }
 
-/// The id of the environment, which is a light only where light_count is above it.
+/// The id of the environment. It is a light only if light_count is greater.
 FN uint environment_light() { return constants.emissive_triangle_count + constants.punctual_light_count; }
 
-/// A light in proportion to its power (and a defensive share of uniform picking). There must be lights. `words` are two random words.
+/// Picks a light in proportion to its power, with a defensive share of uniform picking. light_count must be positive.
+/// `words` are two random words.
 FN uint pick_light_by_power(uvec2 words) {
     uint column = alias_column(words.x, constants.light_count);
     return alias_pick(load_light_table(column), column, words.y);
@@ -33,7 +34,7 @@ FN uint pick_light_by_power(uvec2 words) {
 
 // For paths. `draws` are the vertex's first four pairs (dimensions.h).
 
-/// A light by power; NONE where there is none, or where its back, which does not emit, faces `reference`.
+/// Picks a light by power; NONE where there is none, or where its back, which does not emit, faces `reference`.
 FN uint pick_light(vec3 reference, IN(FourPairs) draws) {
     if (constants.light_count == 0u) {
         return NONE;
@@ -48,10 +49,10 @@ FN uint pick_light(vec3 reference, IN(FourPairs) draws) {
     return id;
 }
 
-/// Where on a light.
+/// The random numbers that choose a point on a light.
 FN vec2 light_point_draws(IN(FourPairs) draws) { return vec2(unit_float(draws.first.w), unit_float(draws.second.w)); }
 
-/// The light picked, at a point of it: of an emitter, at `on_emitter`. `dimension` is the vertex's first.
+/// Samples the picked light; for an emitter, at the point `on_emitter`. `dimension` is the vertex's first dimension.
 FN LightSample sample_light(uint picked, IN(TriangleSample) on_emitter, vec3 reference, IN(FourPairs) draws,
                             IN(Sampler) random, uint dimension) {
     uint kind = light_kind(picked);
@@ -66,7 +67,8 @@ FN LightSample sample_light(uint picked, IN(TriangleSample) on_emitter, vec3 ref
 
 // For resampling.
 
-/// A point of light `id`: triangles uniformly by area, the environment by its map. `more` are two random words for that.
+/// Samples a point of light `id`: uniformly by area on a triangle, by the map for the environment. `more` are two
+/// random words for the map.
 FN LightPointSample sample_light_point(uint id, vec2 u, uvec2 more) {
     LightPointSample s;
     s.point = no_light_point();
@@ -86,7 +88,7 @@ FN LightPointSample sample_light_point(uint id, vec2 u, uvec2 more) {
     return s;
 }
 
-/// What `reference` sees of a light point, among the lights of `moment` (MOMENT_…).
+/// The light point as seen from `reference`, among the lights of `moment` (MOMENT_…).
 FN SeenLight see_light_point(IN(LightPoint) y, vec3 reference, uint moment) {
     if (y.light >= constants.light_count) {
         return unseen_light();
@@ -101,7 +103,7 @@ FN SeenLight see_light_point(IN(LightPoint) y, vec3 reference, uint moment) {
     return see_environment(y.uv);
 }
 
-/// Density per uv with which sample_light_point finds `y`, its light picked by power.
+/// Density per uv with which sample_light_point finds `y`, including the pick of its light by power.
 FN float pdf_light_point(IN(LightPoint) y) {
     uint kind = light_kind(y.light);
     if (kind == LIGHT_EMITTER) {
@@ -113,7 +115,7 @@ FN float pdf_light_point(IN(LightPoint) y) {
     return pdf_environment(uv_direction(y.uv)) * (2.0f * PI);
 }
 
-/// The part of a cluster that a light belongs to (light_clusters.h); NONE where it belongs to none.
+/// The part of a cluster that contains the light (light_clusters.h); NONE where it is in none.
 FN uint cluster_part_of_light(uint id) {
     uint kind = light_kind(id);
     if (kind == LIGHT_EMITTER) {

@@ -1,4 +1,5 @@
-// Points on lights, named so that resampling can keep them and look at them again: from other surfaces, and at the moment before.
+// Points on lights, in a form that resampling can store and evaluate again, from other surfaces and at the previous
+// moment.
 #ifndef LIGHT_POINT_H
 #define LIGHT_POINT_H
 
@@ -11,8 +12,8 @@ CONST uint LIGHT_EMITTER = 0u;  // an emissive triangle
 CONST uint LIGHT_PUNCTUAL = 1u;
 CONST uint LIGHT_ENVIRONMENT = 2u;
 
-/// A point on a light: `uv` are barycentrics b1, b2 of an emissive triangle; of the environment, direction_uv; of a punctual light,
-/// nothing.
+/// A point on a light. `uv` are the barycentrics b1, b2 of an emissive triangle, or direction_uv of the environment.
+/// They are unused for a punctual light.
 struct LightPoint {
     uint light;  // NONE: no point
     vec2 uv;
@@ -26,18 +27,19 @@ FN LightPoint no_light_point() {
     return y;
 }
 
-/// A light point, and its density per uv with the pick of its light by power; 0: none.
+/// A light point and its density per uv, including the pick of its light by power; density 0: no sample.
 struct LightPointSample {
     LightPoint point;
     float pdf;
 };
 
-/// A light point as a reference point sees it, unoccluded. f · radiance · measure is the integrand per unit of uv measure.
+/// A light point as a reference point sees it, unoccluded. f · radiance · measure is the integrand per unit of uv
+/// measure.
 struct SeenLight {
     vec3 direction;  // unit
-    vec3 radiance;   // arriving; of a punctual light: already divided by r²
-    float measure;   // solid angle per uv; 1 for punctual lights; 0: the point cannot be seen from there
-    bool by_chance;  // a ray that material sampling sends there always finds it: no punctual light, no emitter with alpha
+    vec3 radiance;   // arriving; for a punctual light, already divided by r²
+    float measure;   // solid angle per uv; 1 for a punctual light; 0: not visible from the reference point
+    bool by_chance;  // material sampling may find it: false for punctual lights and emitters with alpha
     bool distant;
     vec3 end;        // where the shadow ray ends, offset from the light's surface
 };

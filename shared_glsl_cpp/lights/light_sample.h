@@ -1,4 +1,4 @@
-// What sampling a light gives to a path.
+// The result of sampling a light for a path.
 #ifndef LIGHT_SAMPLE_H
 #define LIGHT_SAMPLE_H
 
@@ -9,10 +9,10 @@ SHARED_BEGIN
 /// A point on a light as `reference` sees it.
 struct LightSample {
     vec3 direction;  // unit, toward the light
-    vec3 radiance;   // arriving unoccluded; of a delta light: already divided by r², to be divided by pdf alone
-    float pdf;       // solid angle times pick; of a delta light: pick alone. 0: no light
-    bool delta;      // no other strategy can find it
-    bool distant;    // at infinity: no end point
+    vec3 radiance;   // arriving, unoccluded; for a delta light, already divided by r²
+    float pdf;       // per solid angle, times the pick; for a delta light, the pick alone; 0: no sample
+    bool delta;      // no other strategy can find the light
+    bool distant;    // at infinity; `end` is unused
     vec3 end;        // where the shadow ray ends, offset from the light's surface
 };
 

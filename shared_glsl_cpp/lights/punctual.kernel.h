@@ -4,7 +4,7 @@
 
 #include "leaves.h"
 
-/// The light as it is, or as it was at the moment that reuse looks back to.
+/// The light at the current moment, or at the previous one, for reuse from the frame before.
 FN PunctualLight punctual_light_at(uint moment, uint index) {
     if (feature(FEATURE_MOTION) && moment == MUTANT(PREVIOUS_PUNCTUAL_CURRENT, MOMENT_PREVIOUS, NONE)) {
         return load_previous_punctual_lights(index);
@@ -37,7 +37,7 @@ FN LightSample see_punctual(IN(PunctualLight) light, vec3 reference) {
     return s;
 }
 
-/// The light as a light point, whose uv mean nothing.
+/// The light as a light point. Its uv are unused.
 FN SeenLight see_punctual_point(IN(PunctualLight) light, vec3 reference) {
     LightSample sampled = see_punctual(light, reference);
     SeenLight s = unseen_light();

@@ -1,4 +1,4 @@
-// Picking from an alias table (Walker 1977; Vose 1991): two words, one load.
+// Picking from an alias table (Walker 1977; Vose 1991), from two random words with one load.
 #ifndef ALIAS_TABLE_H
 #define ALIAS_TABLE_H
 
@@ -6,12 +6,12 @@
 
 SHARED_BEGIN
 
-/// A column below `count`, all alike to within count/2^32.
+/// A column below `count`. Each column has the same probability up to count/2^32.
 FN uint alias_column(uint bits, uint count) {
     return multiply_high(bits, count);
 }
 
-/// The column, or its alias. All 32 bits count, and probability 1 always keeps.
+/// Returns the column or its alias. All 32 bits are compared, and probability 1 always keeps the column.
 FN uint alias_pick(IN(AliasEntry) e, uint column, uint bits) {
     if (e.probability >= 1.0f) {
         return column;

@@ -1,7 +1,7 @@
-// Elementary functions as polynomials: Vulkan's own may err by thousands of ulps, and differ from C++'s. Only +, -, *,
-// /, sqrt and integer operations, so that both backends agree but for the division and sqrt. Coefficients: minimax in relative error
-// (Remez exchange), rounded to fp32. Bounds were measured against double over the stated range, in ulps of the exact
-// result.
+// Elementary functions as polynomials. Vulkan's own functions may be off by thousands of ulps, and differ from C++'s.
+// These use only +, -, *, /, sqrt and integer operations, so the backends agree except for the rounding of division
+// and sqrt. Coefficients are minimax in relative error (Remez exchange), rounded to fp32. Error bounds were measured
+// against double over the stated range, in ulps of the exact result.
 #ifndef ELEMENTARY_H
 #define ELEMENTARY_H
 
@@ -12,9 +12,9 @@ SHARED_BEGIN
 CONST float HALF_PI = 1.57079632679490f;
 CONST float QUARTER_PI = 0.785398163397448f;
 CONST float LOG2_E = 1.44269504088896f;
-CONST float SIN_COS_MAX = 16384.0f;  // beyond it, sin_cos is that of 0
+CONST float SIN_COS_MAX = 16384.0f;  // beyond it, sin_cos returns the values for 0
 
-/// By the bits: a compiler may fold `isnan` away.
+/// Tested by the bits, because a compiler may remove `isnan`.
 FN bool is_nan(float x) {
     return (floatBitsToUint(x) & 0x7fffffffu) > 0x7f800000u;
 }
@@ -28,7 +28,7 @@ FN float safe_sqrt(float x) {
     return x > 0.0f ? sqrt(x) : 0.0f;
 }
 
-/// Rec.709.
+/// Relative luminance of linear Rec.709.
 FN float luminance(vec3 rgb) {
     return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
 }
@@ -46,9 +46,9 @@ FN void sin_cos_octant(float r, OUT(float) s, OUT(float) c) {
     c = cosine;
 }
 
-/// Sine and cosine of x radians, |x| <= SIN_COS_MAX; (0, 1) beyond it and for NaN. Error 1.6 ulp for
-/// |x| <= 7, and 3e-7 anywhere.
-/// pi/2 is taken off in three parts (Cody & Waite 1980; the split of Cephes).
+/// Sine and cosine of x radians, |x| <= SIN_COS_MAX; (0, 1) beyond it and for NaN. The error is at most 1.6 ulp for
+/// |x| <= 7, and 3e-7 anywhere. Multiples of pi/2 are subtracted in three parts (Cody and Waite 1980, with the split
+/// of Cephes).
 FN void sin_cos(float x, OUT(float) s, OUT(float) c) {
     float angle = abs(x) <= SIN_COS_MAX ? x : 0.0f;
     float quadrant = floor(angle * 0.636619772367581f + 0.5f);
@@ -65,8 +65,8 @@ FN void sin_cos(float x, OUT(float) s, OUT(float) c) {
     c = turn == 1 || turn == 2 ? -cosine_part : cosine_part;
 }
 
-/// Angle of (x, y) from the x axis, in [-pi, pi]; 0 for (0, 0). |x| + |y| must be finite, else any finite value or NaN.
-/// Error 2.6 ulp.
+/// Angle of (x, y) from the x axis, in [-pi, pi]; 0 for (0, 0). If |x| + |y| is not finite, the result is any finite
+/// value or NaN. Error 2.6 ulp.
 FN float arctan2(float y, float x) {
     float ax = abs(x);
     float ay = abs(y);
@@ -128,14 +128,14 @@ FN float log1p_reduced(float f) {
     return result;
 }
 
-/// x > 0, normal: x = (1 + f) 2^e with 1 + f in [sqrt(1/2), sqrt(2)). Returns e.
+/// Splits a positive normal x = (1 + f) 2^e with 1 + f in [sqrt(1/2), sqrt(2)). Returns e.
 FN float split_exponent(float x, OUT(float) f) {
     uint offset = floatBitsToUint(x) - 0x3f3504f3u;
     f = uintBitsToFloat((offset & 0x007fffffu) + 0x3f3504f3u) - 1.0f;
     return float(int(offset) >> 23);
 }
 
-/// Negative infinity for 0 and denormals, NaN below 0 and for NaN. Error 1.8 ulp.
+/// log2(x). Negative infinity for 0 and denormals; NaN for negative x and NaN. Error 1.8 ulp.
 FN float log2_poly(float x) {
     uint bits = floatBitsToUint(x);
     if (bits < 0x00800000u) {
@@ -155,7 +155,7 @@ FN float pow_poly(float base, float e) {
     return e == 0.0f ? 1.0f : exp2_poly(e * log2_poly(base));
 }
 
-/// ln(1 + x), x > -1; accurate for tiny x. Negative infinity at -1, NaN below. Error 3.5 ulp.
+/// ln(1 + x) for x > -1, accurate for tiny x. Negative infinity at -1; NaN below. Error 3.5 ulp.
 FN float log1p_poly(float x) {
     if (x > -0.292893f && x < 0.414213f) {
         return log1p_reduced(x);

@@ -1,4 +1,4 @@
-// Integer hashes: bit for bit the same on both backends.
+// Integer hashes, equal to the bit on both backends.
 #ifndef RNG_H
 #define RNG_H
 
@@ -6,7 +6,7 @@
 
 SHARED_BEGIN
 
-/// Jarzynski & Olano 2020, "Hash Functions for GPU Rendering": four words from four.
+/// Four words from four words: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".
 FN uvec4 pcg4d(uvec4 v) {
     v = v * 1664525u + 1013904223u;
     v.x += v.y * v.w;
@@ -30,12 +30,12 @@ FN uint hash_word(uint x) {
     return x ^ (x >> 16);
 }
 
-/// Hash of an ordered pair; a permutation in either word while the other is fixed.
+/// Hash of an ordered pair. For a fixed value of one word it is a permutation of the other.
 FN uint hash_combine(uint a, uint b) {
     return hash_word(hash_word(a + 0x9e3779b9u) + b);
 }
 
-/// [0, 1): the word's high 24 bits.
+/// A number in [0, 1) from the word's high 24 bits.
 FN float unit_float(uint bits) {
     return MUTANT(UNIT_FLOAT_OF_ONE, float(bits >> 8) * 5.9604644775390625e-8f, float(bits) * 2.3283064365386963e-10f);
 }

@@ -1,5 +1,5 @@
 // Random numbers as a pure function of (pixel, sample, dimension, seed), so that any sample can be replayed alone.
-// Every word is uniform over seeds, so each kind is unbiased by its randomisation.
+// Every word is uniform over seeds, so that every kind of sampler gives an unbiased estimate.
 #ifndef SAMPLER_H
 #define SAMPLER_H
 
@@ -9,8 +9,8 @@
 SHARED_BEGIN
 
 CONST uint SAMPLER_INDEPENDENT = 0u;
-CONST uint SAMPLER_HAMMERSLEY = 1u;  // film and lens only; the rest is independent
-CONST uint SAMPLER_SOBOL = 2u;       // dimensions below SOBOL_MAX_DIMENSION; the rest is independent
+CONST uint SAMPLER_HAMMERSLEY = 1u;  // for film and lens only; other dimensions are independent
+CONST uint SAMPLER_SOBOL = 2u;       // for dimensions below SOBOL_MAX_DIMENSION; others are independent
 
 CONST uint SOBOL_MAX_DIMENSION = 100u;  // camera and eight vertices
 CONST uint HAMMERSLEY_MAX_COUNT = 1u << 23;
@@ -35,7 +35,7 @@ FN Sampler make_sampler(uvec2 pixel, uint sample_index, uint seed, uint kind, ui
     return s;
 }
 
-/// Four independent words of a dimension that is not drawn by the pair.
+/// Four independent words of one dimension. These dimensions are not drawn in pairs.
 FN uvec4 independent_words(IN(Sampler) s, uint dimension) {
     uint index = MUTANT(RESAMPLING_SEED_FROZEN, s.sample_index, 0u);
     return pcg4d(uvec4(s.key.x, s.key.y, index, dimension));
@@ -46,7 +46,7 @@ FN uvec2 independent_bits_2d(IN(Sampler) s, uint dimension) {
     return uvec2(v.z, v.w);
 }
 
-/// Three words that stay the same for all samples of a pixel's pair of dimensions.
+/// Three words that are the same for all samples of a pixel, for a pair of dimensions.
 FN uvec3 dimension_words(IN(Sampler) s, uint dimension) {
     uint a = hash_word(s.key.x ^ (dimension * 0x9e3779b9u));
     uint b = hash_word(s.key.y + dimension * 0x85ebca6bu);
@@ -67,8 +67,8 @@ FN uint stratum_center_bits(uint i, uint n) {
     return bits;
 }
 
-/// A permutation of 0 .. n-1 that depends on `key`: invertible steps on the least power of two, walked until inside
-/// (Kensler 2013, "Correlated Multi-Jittered Sampling").
+/// A permutation of 0 .. n-1 that depends on `key`: invertible steps on the next power of two, repeated until the
+/// result is below n (Kensler 2013, "Correlated Multi-Jittered Sampling").
 FN uint permute_index(uint i, uint n, uint key) {
     uint mask = n - 1u;
     mask |= mask >> 1;
@@ -90,8 +90,8 @@ FN uint permute_index(uint i, uint n, uint key) {
     return x;
 }
 
-/// Point i of the set (i/n, radical inverse of i), shifted on the torus per pixel (Cranley & Patterson 1976). The lens
-/// takes the same set in another order.
+/// Point i of the Hammersley set (i/n, radical inverse of i), shifted on the torus per pixel (Cranley and Patterson
+/// 1976). The lens uses the same set in another order.
 FN uvec2 hammersley_bits_2d(IN(Sampler) s, uint dimension) {
     uvec3 words = dimension_words(s, dimension);
     uint i = s.sample_index;
@@ -120,8 +120,8 @@ FN uint sobol_second_reversed(uint i) {
     return i ^ ((i >> 1) & 0x55555555u);
 }
 
-/// A (0,2)-sequence, Owen-scrambled, its order shuffled by pixel and pair of dimensions (Burley 2020, "Practical
-/// Hash-based Owen Scrambling").
+/// A (0,2)-sequence with Owen scrambling. Its order is shuffled per pixel and pair of dimensions (Burley 2020,
+/// "Practical Hash-based Owen Scrambling").
 FN uvec2 sobol_bits_2d(IN(Sampler) s, uint dimension) {
     uvec3 words = dimension_words(s, dimension);
     uint i = bitfieldReverse(owen_scramble_reversed(s.reversed_index, words.z));
@@ -130,7 +130,7 @@ FN uvec2 sobol_bits_2d(IN(Sampler) s, uint dimension) {
     return uvec2(bitfieldReverse(first), bitfieldReverse(second));
 }
 
-/// Words for dimensions `dimension` (even) and the one after.
+/// Two words, for `dimension` (even) and the next one.
 FN uvec2 sample_bits_2d(IN(Sampler) s, uint dimension) {
     if (s.kind == SAMPLER_SOBOL && dimension < SOBOL_MAX_DIMENSION) {
         return sobol_bits_2d(s, dimension);
@@ -142,7 +142,7 @@ FN uvec2 sample_bits_2d(IN(Sampler) s, uint dimension) {
     return independent_bits_2d(s, dimension);
 }
 
-/// sample_bits_2d of four pairs of dimensions: `dimension` and those 2, 4 and 6 above it.
+/// sample_bits_2d of four pairs of dimensions: `dimension`, and those 2, 4 and 6 above it.
 struct FourPairs {
     uvec4 first;
     uvec4 second;
@@ -152,7 +152,7 @@ FN FourPairs sample_bits_four_pairs(IN(Sampler) s, uint dimension) {
     uint first[4];
     uint second[4];
     if (s.kind == SAMPLER_SOBOL && dimension + 6u < SOBOL_MAX_DIMENSION) {
-        for (uint i = 0u; i < 4u; i++) {  // without branches: one vector on a CPU
+        for (uint i = 0u; i < 4u; i++) {  // without branches, so that a CPU vectorises the loop
             uvec2 bits = sobol_bits_2d(s, dimension + 2u * i);
             first[i] = bits.x;
             second[i] = bits.y;
@@ -170,13 +170,13 @@ FN FourPairs sample_bits_four_pairs(IN(Sampler) s, uint dimension) {
     return pairs;
 }
 
-/// [0, 1)^2, multiples of 2^-24.
+/// Two numbers in [0, 1), multiples of 2^-24.
 FN vec2 sample_2d(IN(Sampler) s, uint dimension) {
     uvec2 bits = sample_bits_2d(s, dimension);
     return vec2(unit_float(bits.x), unit_float(bits.y));
 }
 
-/// The first of sample_2d's two.
+/// The first number of sample_2d.
 FN float sample_1d(IN(Sampler) s, uint dimension) {
     uvec2 bits = sample_bits_2d(s, dimension);
     return unit_float(bits.x);

@@ -1,4 +1,4 @@
-// Warps of the unit square, z up in local frames; pdfs by solid angle. Defined for u in [0, 1]^2.
+// Warps of the unit square, in local frames with z up. Pdfs are per solid angle. Defined for u in [0, 1]^2.
 #ifndef SAMPLING_H
 #define SAMPLING_H
 
@@ -6,7 +6,8 @@
 
 SHARED_BEGIN
 
-/// Uniform on the unit disk by the concentric map (Shirley & Chiu 1997), which keeps strata together. `radius` has a sign.
+/// A uniform point on the unit disk by the concentric map, which preserves strata (Shirley and Chiu 1997). `radius` is
+/// signed.
 FN vec2 sample_disk_concentric(vec2 u, OUT(float) radius) {
     float a = 2.0f * u.x - 1.0f;
     float b = 2.0f * u.y - 1.0f;
@@ -15,7 +16,7 @@ FN vec2 sample_disk_concentric(vec2 u, OUT(float) radius) {
     float ratio = radius == 0.0f ? 0.0f : (wide ? b : a) / radius;
     float s;
     float c;
-    sin_cos_octant(QUARTER_PI * ratio, s, c);  // from the nearer axis
+    sin_cos_octant(QUARTER_PI * ratio, s, c);  // angle from the nearer axis
     float along = radius * c;
     float across = radius * s;
     return vec2(wide ? along : across, wide ? across : along);
@@ -26,7 +27,7 @@ FN vec2 sample_disk_concentric(vec2 u) {
     return sample_disk_concentric(u, radius);
 }
 
-/// Malley's method: the disk, lifted.
+/// Malley's method: a uniform point of the disk, projected up to the hemisphere.
 FN vec3 sample_cosine_hemisphere(vec2 u) {
     float radius;
     vec2 disk = sample_disk_concentric(u, radius);

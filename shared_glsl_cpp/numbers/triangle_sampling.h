@@ -1,5 +1,5 @@
-// Points on a triangle x = v0 + b_1 e1 + b_2 e2, seen from a reference point. Both faces count: facing is the caller's
-// to check.
+// Sampling points on a triangle x = v0 + b_1 e1 + b_2 e2 as seen from a reference point. Both faces count; the caller
+// checks the facing.
 #ifndef TRIANGLE_SAMPLING_H
 #define TRIANGLE_SAMPLING_H
 
@@ -7,18 +7,18 @@
 
 SHARED_BEGIN
 
-CONST float SPHERICAL_TRIANGLE_MIN = 3e-4f;  // sr; smaller ones look flat, and directions lose digits
-CONST float SPHERICAL_TRIANGLE_MAX = 6.22f;  // sr; larger ones, close to the half space, lose digits too
+CONST float SPHERICAL_TRIANGLE_MIN = 3e-4f;  // sr; smaller triangles look flat, and directions lose digits
+CONST float SPHERICAL_TRIANGLE_MAX = 6.22f;  // sr; larger triangles are close to the half space and lose digits too
 CONST float TAN_HALF_MIN = 1.5e-4f;      // tan(SPHERICAL_TRIANGLE_MIN / 2)
 CONST float TAN_HALF_MAX = 0.0316032f;   // -tan(SPHERICAL_TRIANGLE_MAX / 2)
 
 struct TriangleSample {
     vec2 barycentrics;  // of the second and third vertex
-    float pdf;          // by solid angle; 0: no sample
+    float pdf;          // per solid angle; 0: no sample
 };
 
-/// Uniform by area: barycentrics of the second and third vertex, both >= 0 with a sum below 1 for u in [0, 1)^2.
-/// Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
+/// Uniform by area (Heitz 2019, "A Low-Distortion Map Between Triangle and Square"). Returns barycentrics of the
+/// second and third vertex, both >= 0, with a sum below 1 for u in [0, 1)^2.
 FN vec2 sample_triangle(vec2 u) {
     if (u.y > u.x) {
         float half_x = 0.5f * u.x;
@@ -30,22 +30,22 @@ FN vec2 sample_triangle(vec2 u) {
 
 /// The triangle as seen from the reference point.
 struct TriangleView {
-    vec3 a;  // unit, to the vertices
+    vec3 a;  // unit vectors to the vertices
     vec3 b;
     vec3 c;
-    vec3 inverse_lengths;  // 1 over the distances to them
+    vec3 inverse_lengths;  // 1 over the distances to the vertices
     float height;          // from the reference point to the plane, along the normal
     float double_area;
-    float volume;       // |det(a, b, c)|, by the edges: unit vectors would cancel
+    float volume;       // |det(a, b, c)|, computed from the edges: unit vectors would cancel
     float denominator;  // tan(solid angle / 2) = volume / denominator
-    float edge_ab;      // the denominator's part 1 + a . b
+    float edge_ab;      // 1 + a · b, a term of the denominator
 };
 
 FN float largest_magnitude(vec3 v) {
     return max_component(abs(v));
 }
 
-/// e1 x e2 by the two shortest edges, which loses fewest digits on a needle.
+/// e1 x e2, computed from the two shortest edges, which loses the fewest digits for a needle.
 FN vec3 triangle_cross(vec3 e1, vec3 e2) {
     PRECISE vec3 e3 = e2 - e1;
     float length_1 = dot(e1, e1);
@@ -59,8 +59,9 @@ FN vec3 triangle_cross(vec3 e1, vec3 e2) {
     return n;
 }
 
-/// Solid angle by Van Oosterom & Strackee 1983, over the product of the distances. `to_vertex_0` from the reference point; `normal`
-/// unit, either side's; `double_area` = |e1 x e2|. Distances between 1e-18 and 1e18.
+/// Solid angle of the triangle (Van Oosterom and Strackee 1983), as the tangent of its half. `to_vertex_0` is from the
+/// reference point. `normal` is unit, of either side. `double_area` = |e1 x e2|. Distances must be between 1e-18 and
+/// 1e18.
 FN TriangleView triangle_view(vec3 to_vertex_0, vec3 e1, vec3 e2, vec3 normal, float double_area) {
     TriangleView view;
     PRECISE vec3 b = to_vertex_0 + e1;
@@ -88,13 +89,13 @@ FN float view_solid_angle(IN(TriangleView) view) {
     return 2.0f * arctan2(view.volume, view.denominator);
 }
 
-/// Whether the solid angle lies between SPHERICAL_TRIANGLE_MIN and _MAX, by its tangent.
+/// Whether the solid angle lies between SPHERICAL_TRIANGLE_MIN and SPHERICAL_TRIANGLE_MAX, by the tangent of its half.
 FN bool samples_spherically(IN(TriangleView) view) {
     float bound = view.denominator >= 0.0f ? TAN_HALF_MIN : TAN_HALF_MAX;
     return view.volume >= bound * abs(view.denominator) && view.volume > 0.0f;
 }
 
-/// Uniform by area, by solid angle: r^2/(A |cos|) with |cos| = |height|/r.
+/// Density per solid angle of a point that is uniform by area: r^2/(A |cos|) with |cos| = |height|/r.
 FN float pdf_triangle_area_solid_angle(IN(TriangleView) view, vec3 to_point) {
     float height = abs(view.height);
     float r_squared = dot(to_point, to_point);
@@ -106,7 +107,7 @@ FN float pdf_triangle_area_solid_angle(IN(TriangleView) view, vec3 to_point) {
     return min(pdf, 8.0e37f);
 }
 
-/// The pdf that sample_triangle_view has for a point of the triangle.
+/// The density of sample_triangle_view at a point of the triangle, per solid angle.
 FN float pdf_triangle_view(IN(TriangleView) view, vec3 to_point) {
     if (samples_spherically(view)) {
         return 1.0f / view_solid_angle(view);
@@ -114,11 +115,11 @@ FN float pdf_triangle_view(IN(TriangleView) view, vec3 to_point) {
     return pdf_triangle_area_solid_angle(view, to_point);
 }
 
-/// Barycentrics of the second and third vertex, uniform over the spherical triangle. The map is Arvo's (1995, "Stratified Sampling
-/// of Spherical Triangles"): C' on the arc AC so that ABC' has the share u.x of the area, then a point on the arc BC'. Directions
-/// are kept as weights of the unit vectors A, B, C, in differences that cannot cancel: with o the half vector of A and C', which is
-/// p A + q C in some length (Peters 2021, "BRDF Importance Sampling for Polygonal Lights"), C' = (p^2 - q^2)/o^2 A + 2 q (A.o)/o^2 C, and
-/// sin^2(t/2) = u.y sin^2(BC'/2) for the arc t from B.
+/// Barycentrics of the second and third vertex of a point that is uniform over the spherical triangle (Arvo 1995,
+/// "Stratified Sampling of Spherical Triangles"). C' on the arc AC is such that ABC' has the share u.x of the area;
+/// the point lies on the arc BC'. Directions are weights of the unit vectors A, B, C, computed without cancellation.
+/// The half vector of A and C' is o = p A + q C, up to length (Peters 2021, "BRDF Importance Sampling for Polygonal
+/// Lights"), so C' = (p^2 - q^2)/o^2 A + 2 q (A·o)/o^2 C. The arc t from B satisfies sin^2(t/2) = u.y sin^2(BC'/2).
 FN vec2 sample_spherical_triangle(IN(TriangleView) view, float solid_angle, vec2 u) {
     float s;
     float co;
@@ -138,7 +139,7 @@ FN vec2 sample_spherical_triangle(IN(TriangleView) view, float solid_angle, vec2
     float sampled = u.y * sine_squared;
     float share_new = sqrt(u.y * max(1.0f - sampled, 0.0f) / max(cosine_squared, 1e-20f));
     float share_b = 1.0f - 2.0f * sampled - share_new * (cosine_squared - sine_squared);
-    // On the flat triangle a vertex's weight falls with its distance.
+    // Projection onto the flat triangle divides a vertex's weight by its distance.
     float weight_a = share_new * share_a * view.inverse_lengths.x;
     float weight_b = max(share_b, 0.0f) * view.inverse_lengths.y;
     float weight_c = share_new * share_c * view.inverse_lengths.z;
@@ -148,8 +149,9 @@ FN vec2 sample_spherical_triangle(IN(TriangleView) view, float solid_angle, vec2
     return vec2(b_1, min(weight_c * to_barycentric, 1.0f - b_1));
 }
 
-/// A point on the triangle that is seen from `-to_vertex_0` of its first vertex: by solid angle where that is between
-/// SPHERICAL_TRIANGLE_MIN and _MAX, else by area. pdf 0 for degenerate triangles and from within the plane.
+/// Samples a point on the triangle; `to_vertex_0` is from the reference point. It is uniform by solid angle where that
+/// is between SPHERICAL_TRIANGLE_MIN and SPHERICAL_TRIANGLE_MAX, else by area. The pdf is 0 for a degenerate triangle
+/// and for a reference point in its plane.
 FN TriangleSample sample_triangle_view(IN(TriangleView) view, vec3 to_vertex_0, vec3 e1, vec3 e2, vec2 u) {
     TriangleSample result;
     if (samples_spherically(view)) {
@@ -164,22 +166,22 @@ FN TriangleSample sample_triangle_view(IN(TriangleView) view, vec3 to_vertex_0, 
     return result;
 }
 
-// The same for a triangle of which nothing is known but its edges, at any scale.
+// The same for a triangle at any scale, of which only the edges are known.
 
-/// A power of two that brings the triangle's largest coordinate, as seen from the reference point, below 1 and above 1/4.
+/// A power of two that scales the triangle's largest coordinate, relative to the reference point, into (1/4, 1).
 FN float triangle_scale(vec3 to_vertex_0, vec3 e1, vec3 e2) {
     float extent = max(largest_magnitude(to_vertex_0), max(largest_magnitude(e1), largest_magnitude(e2)));
     return uintBitsToFloat((253u - min(floatBitsToUint(extent) >> 23, 252u)) << 23);
 }
 
-/// Scaled by triangle_scale.
+/// Edges as scaled by triangle_scale.
 FN TriangleView triangle_view_of_edges(vec3 to_vertex_0, vec3 e1, vec3 e2) {
     vec3 n = triangle_cross(e1, e2);
     float double_area = length(n);
     return triangle_view(to_vertex_0, e1, e2, n * (1.0f / max(double_area, 1e-30f)), double_area);
 }
 
-/// In [0, 2 pi]; 0 for a degenerate triangle and from within its plane, outside it.
+/// In [0, 2 pi]; 0 for a degenerate triangle, and from a point in its plane but outside it.
 FN float solid_angle_triangle(vec3 reference, vec3 v0, vec3 e1, vec3 e2) {
     PRECISE vec3 a = v0 - reference;
     float scale = triangle_scale(a, e1, e2);
@@ -194,7 +196,7 @@ FN TriangleSample sample_triangle_solid_angle(vec3 reference, vec3 v0, vec3 e1, 
     return sample_triangle_view(view, a * scale, e1 * scale, e2 * scale, u);
 }
 
-/// The pdf that sample_triangle_solid_angle has for this point of the triangle, from the same reference point.
+/// The density of sample_triangle_solid_angle at this point of the triangle, from the same reference point.
 FN float pdf_triangle_solid_angle(vec3 reference, vec3 v0, vec3 e1, vec3 e2, vec3 point_on_triangle) {
     PRECISE vec3 a = v0 - reference;
     float scale = triangle_scale(a, e1, e2);

@@ -6,8 +6,9 @@
 
 SHARED_BEGIN
 
-/// Weight of a sample drawn with pdf_a that the other strategy has with pdf_b, same measure; heuristic is MIS_POWER
-/// (exponent 2) or MIS_BALANCE. 0 unless pdf_a > 0, 1 unless pdf_b > 0; by the pdfs' ratio, so no square overflows.
+/// MIS weight of a sample drawn with pdf_a where the other strategy has pdf_b, in the same measure. `heuristic` is
+/// MIS_POWER (exponent 2) or MIS_BALANCE. The weight is 0 unless pdf_a > 0, and else 1 unless pdf_b > 0. It is
+/// computed from the ratio of the pdfs, so that no square overflows.
 FN float mis_weight(uint heuristic, float pdf_a, float pdf_b) {
     if (!(pdf_a > 0.0f)) {
         return 0.0f;

@@ -1,13 +1,13 @@
-// The path integrator (Kajiya 1986; Veach 1997) in its three forms, which share one integrand and differ in how they find light:
-// `brdf` by sampling the material, `direct` by sampling lights, `path` by both, weighted by MIS. What only one strategy can find
-// (punctual lights; lights seen directly or in a mirror) counts fully in all three.
+// The path integrator (Kajiya 1986; Veach 1997). Its three forms share one integrand and differ in how they find
+// light: `brdf` by sampling the material, `direct` by sampling lights, `path` by both, weighted by MIS. Light that
+// only one strategy can find (punctual lights; lights seen directly or in a mirror) counts fully in all three.
 #ifndef PATH_KERNEL_H
 #define PATH_KERNEL_H
 
 #include "geometry/alpha.kernel.h"
 #include "lights/light.kernel.h"
 
-/// The place of a pixel in whatever holds a film's.
+/// Index of a pixel in every array that has one element per pixel.
 FN uint pixel_index(uvec2 pixel) { return pixel.y * constants.size.x + pixel.x; }
 
 /// One sample of one pixel.
@@ -17,7 +17,7 @@ struct PathSample {
     FirstHit first_hit;
 };
 
-/// Of a sample that hits nothing.
+/// The first hit of a sample that hits nothing.
 FN FirstHit no_first_hit() {
     FirstHit hit;
     hit.albedo = vec3(0.0f, 0.0f, 0.0f);
@@ -26,12 +26,13 @@ FN FirstHit no_first_hit() {
     return hit;
 }
 
-/// Probability that Russian roulette lets a path go on: 1 before its fourth vertex (depth 3), and at most 0.95 from there on.
+/// Probability that Russian roulette lets a path continue: 1 up to its third vertex (depth 0 to 2), at most 0.95 from
+/// then on.
 FN float survival_probability(vec3 throughput, uint depth) {
     return depth < 3u ? 1.0f : min(MUTANT(ROULETTE_BY_RED, max_component(throughput), throughput.x), 0.95f);
 }
 
-/// Names one ray for the hash that decides stochastic alpha. Never NONE.
+/// The key of one ray for the hash that decides stochastic alpha. It is never NONE.
 FN uint ray_alpha_key(IN(Sampler) random, uint ray) {
     if (!feature(FEATURE_ALPHA)) {
         return 0u;
@@ -39,7 +40,8 @@ FN uint ray_alpha_key(IN(Sampler) random, uint ray) {
     return pcg4d(uvec4(random.key.x, random.key.y, random.sample_index, 0x416c7068u ^ ray)).x >> 1;
 }
 
-/// Weight of finding a light by sampling the material with density `pdf` where light sampling had density `pdf_light`.
+/// MIS weight of light found by sampling the material with density `pdf`, where light sampling has density
+/// `pdf_light`.
 FN float bsdf_sampling_weight(float pdf, float pdf_light) {
     if (weighs_by_mis(constants.integrator)) {
         return MUTANT(MIS_ONE_AT_HIT, mis_weight(constants.mis, pdf, pdf_light), 1.0f);
@@ -54,14 +56,14 @@ FN float light_sampling_weight(IN(LightSample) light, float pdf) {
     return MUTANT(MIS_ONE_AT_LIGHT, mis_weight(constants.mis, light.pdf, pdf), 1.0f);
 }
 
-/// Whether a ray that found light by sampling the material, from a vertex that could also sample lights, needs the light's pdf.
+/// Whether the MIS weight of light found by sampling the material needs the light's pdf.
 FN bool needs_light_pdf() { return feature(FEATURE_LIGHT_SAMPLING) && weighs_by_mis(constants.integrator); }
 
-/// Whether light adds nothing. NaN is not black: it has to reach the film, which counts it.
+/// Whether light is exactly black. NaN is not black: it has to reach the film, which counts it.
 FN bool is_black(vec3 radiance) { return radiance.x == 0.0f && radiance.y == 0.0f && radiance.z == 0.0f; }
 
-/// One sampled light, all but its visibility: `radiance` is what it adds where the shadow ray is free. Where that is black, no ray
-/// is needed. The ray starts where the path's next one does.
+/// The contribution of one sampled light, not yet tested for visibility. `radiance` is added if the shadow ray is
+/// unoccluded; if it is black, no shadow ray is needed. The shadow ray and the path's next ray have the same origin.
 struct DirectLight {
     vec3 radiance;
     vec3 direction;  // of the shadow ray
@@ -76,19 +78,19 @@ FN DirectLight no_direct_light() {
     return direct;
 }
 
-/// Where a path has arrived and scatters.
+/// A path vertex on a surface that scatters.
 struct Vertex {
     vec3 position;
-    vec3 origin;  // where rays leave the surface
+    vec3 origin;  // of rays that leave the surface
     SurfaceBsdf bsdf;
     SeenBsdf seen;
-    uint dimension;  // its first
+    uint dimension;  // the vertex's first dimension
     FourPairs draws;
-    uint light;                 // picked; NONE where there is none to sample
-    TriangleSample on_emitter;  // where an emitter is picked: a point of it
+    uint light;                 // the picked light; NONE where no light is sampled
+    TriangleSample on_emitter;  // a point of the picked light, if that is an emitter
 };
 
-/// Of a vertex with a light picked.
+/// Samples the light that was picked at the vertex.
 FN DirectLight sample_direct_light(IN(Vertex) v, IN(Sampler) random) {
     DirectLight direct = no_direct_light();
     LightSample light = sample_light(v.light, v.on_emitter, v.position, v.draws, random, v.dimension);
@@ -103,7 +105,7 @@ FN DirectLight sample_direct_light(IN(Vertex) v, IN(Sampler) random) {
     return direct;
 }
 
-/// Light from a point that resampling chose, weighed by its W.
+/// Direct light from the light point that resampling selected, with its contribution weight W.
 FN DirectLight resampled_direct_light(IN(Vertex) v, IN(Reservoir) chosen) {
     DirectLight direct = no_direct_light();
     if (!(chosen.weight > 0.0f)) {
@@ -117,24 +119,24 @@ FN DirectLight resampled_direct_light(IN(Vertex) v, IN(Reservoir) chosen) {
     return direct;
 }
 
-/// Whether the first vertex takes its direct light, all of it, from a reservoir.
+/// Whether the first vertex takes all of its direct light from a reservoir.
 FN bool resamples_first_vertex() { return feature(FEATURE_RESAMPLING) && resamples_lights(constants.integrator); }
 
-/// A path on its way: the ray it goes on along and what it has gathered.
+/// A path in progress: its next ray, and what it has accumulated.
 struct PathState {
     Sampler random;
     PathSample found;
     vec3 origin;
     vec3 direction;
     vec3 throughput;
-    vec3 reference;        // the last vertex, from which lights were sampled too
+    vec3 reference;        // the last vertex, from which lights were sampled
     float pdf_direction;   // of `direction`, per solid angle
-    bool only_strategy;    // no light sampling could have found what this ray finds
+    bool only_strategy;    // light sampling cannot find what the next ray may find
     bool goes_on;
-    uint depth;            // scattering events so far
+    uint depth;            // number of scattering events so far
     DirectLight direct;    // sampled at the last vertex, not yet tested for visibility
-    Reservoir reservoir;   // of the first vertex, where light is resampled
-    bool light_is_complete;  // at the last vertex: what the next ray finds has been counted, unless it is the only strategy
+    Reservoir reservoir;   // of the first vertex, for integrators that resample lights
+    bool light_is_complete;  // all direct light of the last vertex is counted, unless only_strategy
 };
 
 FN PathState begin_path(uvec2 pixel, uint sample_index) {
@@ -170,7 +172,7 @@ FN PathState begin_path(uvec2 pixel, uint sample_index) {
     return path;
 }
 
-/// Light from infinity, found by a ray that left the scene.
+/// Adds radiance from infinity, for a ray that left the scene.
 FN void add_environment(INOUT(PathState) path) {
     if (path.light_is_complete && !path.only_strategy) {
         return;
@@ -187,7 +189,7 @@ FN void add_environment(INOUT(PathState) path) {
     RECORD(emission, path.throughput * radiance);
 }
 
-/// Light that the surface hit emits toward the path.
+/// Adds radiance that the surface emits toward the path.
 FN void add_emission(INOUT(PathState) path, IN(Surface) surface, IN(Material) material) {
     bool emits = feature(FEATURE_EMISSIVE) && (material.flags & MATERIAL_EMISSIVE) != 0u &&
                  (path.only_strategy || !path.light_is_complete);
@@ -209,8 +211,8 @@ FN uint next_ray_key(IN(PathState) path) { return ray_alpha_key(path.random, 2u 
 
 FN uint shadow_ray_key(IN(PathState) path) { return ray_alpha_key(path.random, 2u * path.depth - 1u); }
 
-/// The path's ray has been traced: adds what light it found, and picks a light for where it ended. Whether it scatters there: then
-/// a point on the emitter picked, if any, and leave_vertex are to follow.
+/// Processes the hit of the path's ray: adds emitted light, and picks a light for the new vertex. Returns whether the
+/// path scatters there. The caller then samples a point on the picked emitter, if any, and calls leave_vertex.
 FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
     uint depth = path.depth;
     path.found.rays += 1u;
@@ -246,7 +248,7 @@ FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
         return false;
     }
     v.position = surface.position;
-    // Nothing is scattered through the surface.
+    // Rays leave on wo's side: nothing is scattered through the surface.
     v.origin = offset_ray(surface.start, v.bsdf.geometric_normal, surface.magnitude);
     v.dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
     v.draws = sample_bits_four_pairs(path.random, v.dimension);
@@ -259,8 +261,8 @@ FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
     return true;
 }
 
-/// Samples the light picked, or takes what resampling chose, and scatters the path. Visibility of the light is left to the caller, so
-/// that a GPU keeps no surface while it traces.
+/// Samples the picked light, or takes the reservoir's light point, and samples the next direction. The caller tests
+/// the light's visibility, so that a GPU keeps no surface in registers while it traces.
 FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
     uint depth = path.depth;
     if (path.light_is_complete || v.light != NONE) {
@@ -287,7 +289,7 @@ FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
     bool goes_on = next.pdf > 0.0f && max_component(path.throughput) > 0.0f;
     bool only_lights_left = !path.only_strategy && depth + 1u == constants.max_depth;
     if (only_lights_left && (!samples_material(constants.integrator) || path.light_is_complete)) {
-        goes_on = false;  // the last ray could only find light that has been sampled
+        goes_on = false;  // the last ray could only find light that is already sampled
     }
     float survival = survival_probability(path.throughput, depth);
     if (goes_on && survival < 1.0f) {
@@ -305,7 +307,7 @@ FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
     path.goes_on = goes_on;
 }
 
-/// Both, for one path alone.
+/// arrive_at_vertex and leave_vertex for one path.
 FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     Vertex v;
     if (!arrive_at_vertex(path, hit, v)) {
@@ -320,7 +322,7 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
 
 FN bool awaits_shadow_ray(IN(PathState) path) { return !is_black(path.direct.radiance); }
 
-/// The shadow ray has been traced.
+/// Adds the sampled light unless the shadow ray was occluded.
 FN void settle_direct_light(INOUT(PathState) path, bool occluded) {
     path.found.rays += 1u;
     if (!occluded) {

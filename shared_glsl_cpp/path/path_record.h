@@ -1,5 +1,5 @@
-// What one path did, vertex by vertex, for comparing backends that were given the same random numbers. A kernel fills the fields
-// by the hook RECORD (hooks.md), which is nothing where no path is recorded.
+// A record of one path, vertex by vertex, for comparing backends that use the same random numbers. Kernels set the
+// fields with the hook RECORD (hooks.md), which does nothing where no path is recorded.
 #ifndef PATH_RECORD_H
 #define PATH_RECORD_H
 
@@ -17,24 +17,24 @@ CONST uint ROULETTE_NOT_PLAYED = 0u;
 CONST uint ROULETTE_SURVIVED = 1u;
 CONST uint ROULETTE_KILLED = 2u;
 
-/// Where one ray of the path ended, and what was done there. World space; radiance and throughput in linear Rec.709.
+/// The end of one ray of the path, and what happened there. World space; radiance and throughput in linear Rec.709.
 struct PathVertexRecord {
-    vec3 direction;  // of the ray that led here
-    uint instance;   // NONE: it left the scene, and of what follows only the emission counts
+    vec3 direction;  // of the ray that ended here
+    uint instance;   // NONE: the ray left the scene, and only the emission is valid
     vec3 position;
     uint geometry;
-    vec3 normal;  // that shading stands on, normal map included
+    vec3 normal;  // shading normal, with the normal map
     uint primitive;
-    vec3 emission;  // added to the path's radiance: throughput and MIS weight included
+    vec3 emission;  // added to the path's radiance, with throughput and MIS weight
     float emission_weight;
-    vec3 direct;  // what the sampled light adds unless it is hidden, likewise
+    vec3 direct;  // contribution of the sampled light if it is visible, likewise
     float light_pdf;
-    vec3 throughput;  // of what comes after, roulette included
-    float bsdf_pdf;   // of the direction taken; of a mirror, its probability
+    vec3 throughput;  // after this vertex, with Russian roulette
+    float bsdf_pdf;   // of the sampled direction; its probability for a mirror
     vec2 barycentrics;
-    float t;         // along the ray, in lengths of `direction`
-    float survival;  // probability that roulette was played with
-    uint light;      // id of the one picked; NONE: lights were not sampled
+    float t;         // distance along the ray, in lengths of `direction`
+    float survival;  // survival probability of Russian roulette
+    uint light;      // id of the picked light; NONE: no light was sampled
     uint shadow;     // SHADOW_…
     uint lobe;       // LOBE_… | FACET_…
     uint roulette;   // ROULETTE_…
@@ -75,8 +75,8 @@ ASSERT_SIZE(PathQuery, 12);
 
 CONST uint SIGNATURE_VERTICES = 16u;
 
-/// What a path decided and what came of it. signature[n] is a hash of all decisions up to vertex n, the last one of all that follow
-/// too; beyond the path's end it stays as it is.
+/// The decisions and the radiance of a path. signature[n] is a hash of all decisions up to vertex n; the last entry
+/// covers all later vertices too. Entries beyond the path's end repeat the path's last signature.
 struct PathSummary {
     vec3 radiance;
     uint vertices;
@@ -94,8 +94,8 @@ FN PathSummary begin_path_summary() {
     return s;
 }
 
-/// Hash of everything that was decided, not measured, at a vertex: what was hit, which light was picked and whether it was hidden,
-/// which lobe was taken, how roulette fell.
+/// Hash of the decisions at a vertex: the triangle hit, the light picked, whether it was occluded, the lobe and the
+/// roulette. Measured values are not part of it.
 FN uint vertex_decisions(IN(PathVertexRecord) v) {
     uvec4 ids = pcg4d(uvec4(v.instance, v.geometry, v.primitive, v.light));
     return ids.x ^ hash_word(v.shadow | (v.roulette << 4) | (v.lobe << 8));

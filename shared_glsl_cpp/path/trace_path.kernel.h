@@ -1,10 +1,10 @@
-// A path alone, on a backend that traces where it shades.
+// Traces one whole path, for a backend that traces and shades in one place.
 #ifndef TRACE_PATH_KERNEL_H
 #define TRACE_PATH_KERNEL_H
 
 #include "path/path.kernel.h"
 
-/// One path from its camera to its end. The Vulkan backend takes these steps by itself, in waves (wave.glsl).
+/// One path from the camera to its end. The Vulkan backend does the same steps in waves (wave.glsl).
 FN PathSample trace_path(uvec2 pixel, uint sample_index) {
     PathState path = begin_path(pixel, sample_index);
     while (path.goes_on) {

@@ -1,7 +1,7 @@
-// Picks the lights of a reservoir's candidates at one place: some by power, as paths do; the others from clusters of lights
-// (light_clusters.h), by power times the cosine over the square of the distance, and near a cluster part by part, so that a lamp close by
-// is found though it has a millionth of the scene's power. Both are weighed by the density of all picks together (the balance heuristic,
-// Veach and Guibas 1995).
+// Picks the lights of a reservoir's candidates at one shading point. Some picks are by power, as for paths. The other
+// picks are from clusters of lights (light_clusters.h), by power times cosine over squared distance; near a cluster,
+// its parts are weighed one by one. So a near lamp is found even if it has a millionth of the scene's power.
+// Candidates are weighted by the density of all picks together (balance heuristic, Veach and Guibas 1995).
 #ifndef CANDIDATE_PICKER_KERNEL_H
 #define CANDIDATE_PICKER_KERNEL_H
 
@@ -10,20 +10,20 @@
 struct CandidatePicker {
     vec3 position;
     vec3 normal;
-    uint by_power;  // picks
-    uint near;      // picks
-    float sum;      // of the clusters' weights
-    float groups[CLUSTER_GROUPS];  // the sum's terms, CLUSTERS_PER_GROUP clusters each: a pick looks into one
-    bool close;     // emitters may be within reach
+    uint by_power;  // number of picks by power
+    uint near;      // number of picks from clusters
+    float sum;      // of the weights of all clusters
+    float groups[CLUSTER_GROUPS];  // partial sums over CLUSTERS_PER_GROUP clusters; a pick visits one group
+    bool close;     // emitters may be within light_reach
 };
 
-/// What a cluster is worth to a place.
+/// The weight (worth) of a cluster at the shading point: an estimate of its unoccluded light.
 FN float cluster_weight(IN(CandidatePicker) p, IN(LightCluster) cluster) {
     PRECISE float weight = cluster.pmf * cluster_falloff(cluster, p.position, p.normal);
     return weight;
 }
 
-/// Metres. Points on emitters nearer than this are picked too seldom.
+/// Metres. Picking by power finds points on emitters that are nearer than this too rarely.
 FN float light_reach() { return constants.resampling.reach * inversesqrt(float(constants.resampling.light_candidates)); }
 
 FN CandidatePicker begin_candidate_picker(IN(TargetSurface) surface) {
@@ -50,14 +50,14 @@ FN CandidatePicker begin_candidate_picker(IN(TargetSurface) surface) {
         }
         p.close = reach > 0.0f && nearest < reach * reach;
     }
-    // So far away that nothing is left of it.
+    // An infinite sum of weights cannot be sampled. Then all picks are by power.
     p.sum = p.sum < INFINITE_DISTANCE ? p.sum : 0.0f;
     p.near = p.sum > 0.0f ? p.near : 0u;
     p.by_power = constants.resampling.light_candidates - p.near;
     return p;
 }
 
-/// The picker of the same place again, to ask for densities and not to pick.
+/// The same picker restored from a request, for densities only: it cannot pick.
 FN CandidatePicker resume_candidate_picker(IN(TargetSurface) surface, IN(CandidateRequest) request) {
     CandidatePicker p;
     p.position = surface.position;
@@ -73,7 +73,8 @@ FN LightCluster load_cluster_part(uint cluster, uint i) {
     return load_light_clusters(constants.light_cluster_count + cluster * PARTS_PER_CLUSTER + i);
 }
 
-/// The sum of the weights of a cluster's parts, of which those it lacks have none; 0: there its parts are picked by power.
+/// Sum of the weights of a cluster's parts; unused parts have weight 0. The result is 0 where the parts are to be
+/// picked by power.
 FN float parts_sum(IN(CandidatePicker) p, uint cluster, IN(LightCluster) whole) {
     float sum = 0.0f;
     if (whole.count > 1u && squared_excess(whole, p.position) < 0.0f) {
@@ -84,8 +85,8 @@ FN float parts_sum(IN(CandidatePicker) p, uint cluster, IN(LightCluster) whole) 
     return sum < INFINITE_DISTANCE ? sum : 0.0f;
 }
 
-/// The density of all picks together where that of one pick by power is 1, for the lights of a part. `weight` is the cluster's, `parts`
-/// what parts_sum says of it.
+/// Expected number of picks of a light of this part, relative to one pick by power. `weight` is the cluster's weight,
+/// `parts` the cluster's parts_sum.
 FN float picks_of_part(IN(CandidatePicker) p, IN(LightCluster) whole, float weight, IN(LightCluster) part, float parts) {
     float of_part = parts > 0.0f ? cluster_falloff(part, p.position, p.normal) / parts : 1.0f / whole.pmf;
     float near = float(p.near) * (weight / p.sum) * of_part;
@@ -111,13 +112,13 @@ FN float picks_of_light(IN(CandidatePicker) p, uint id) {
     return picks_of_part(p, whole, weight, own, parts_sum(p, cluster, whole));
 }
 
-/// Picks from clusters are at equal steps of the sum of their weights.
+/// Stratified picks from clusters: at equal steps through the sum of the clusters' weights.
 struct ClusterSteps {
-    float offset;        // of the steps, [0, 1)
-    uint cluster;        // where the last step was; NONE before the first
-    LightCluster whole;  // that cluster
-    float weight;        // cluster_weight of it
-    float parts;         // parts_sum of it
+    float offset;        // of all steps, in [0, 1) of a step
+    uint cluster;        // of the last step; NONE before the first
+    LightCluster whole;  // the cluster of the last step
+    float weight;        // its cluster_weight
+    float parts;         // its parts_sum
 };
 
 FN ClusterSteps begin_cluster_steps(IN(Sampler) random) {
@@ -129,7 +130,7 @@ FN ClusterSteps begin_cluster_steps(IN(Sampler) random) {
     return s;
 }
 
-/// The last cluster worth anything that begins at `end` of the sum or before.
+/// The last cluster of positive weight whose interval of the running sum starts at or before `end`.
 FN uint cluster_at(IN(CandidatePicker) p, float end) {
     uint group = 0u;
     float start = 0.0f;
@@ -152,7 +153,7 @@ FN uint cluster_at(IN(CandidatePicker) p, float end) {
     return cluster;
 }
 
-/// Steps rise, so that several in one cluster come after each other.
+/// Moves to the cluster at `end`. Steps are in increasing order, so that steps within one cluster are consecutive.
 FN void step_to(INOUT(ClusterSteps) s, IN(CandidatePicker) p, float end) {
     uint cluster = cluster_at(p, end);
     if (cluster != s.cluster) {
@@ -163,7 +164,7 @@ FN void step_to(INOUT(ClusterSteps) s, IN(CandidatePicker) p, float end) {
     }
 }
 
-/// A part of the cluster, by its weight or its power.
+/// Picks a part of the cluster, by weight, or by power where `parts` is 0.
 FN LightCluster pick_part(IN(ClusterSteps) s, IN(CandidatePicker) p, float u) {
     uint chosen = 0u;
     float end = u * (s.parts > 0.0f ? s.parts : s.whole.pmf);
@@ -177,13 +178,13 @@ FN LightCluster pick_part(IN(ClusterSteps) s, IN(CandidatePicker) p, float u) {
     return load_cluster_part(s.cluster, chosen);
 }
 
-/// A light and the density of all picks together of it, where that of one by power is 1.
+/// A picked light, with the expected number of picks of it, relative to one pick by power.
 struct PickedLight {
     uint id;
     float picks;
 };
 
-/// The near pick number `step`; steps rise. `words` are three.
+/// Pick number `step` from the clusters. Steps must be increasing. `words` are three random words.
 FN PickedLight pick_near_light(INOUT(ClusterSteps) s, IN(CandidatePicker) p, uint step, uvec3 words) {
     step_to(s, p, (float(step) + s.offset) / float(p.near) * p.sum);
     LightCluster part = pick_part(s, p, unit_float(words.z));

@@ -1,20 +1,22 @@
-// The first vertex's initial reservoir, from light points that are picked among all lights (restir.kernel.h). Nothing is traced here.
+// The initial reservoir of a first vertex, from light points picked among all lights (restir.kernel.h). This file
+// traces no rays.
 #ifndef CANDIDATES_KERNEL_H
 #define CANDIDATES_KERNEL_H
 
 #include "restir/candidate_picker.kernel.h"
 #include "path/path.kernel.h"
 
-/// How a surface's material is sampled for candidates.
+/// How often, and how far, a surface's material is sampled for candidates.
 struct BsdfCandidates {
-    float count;  // whole, or below 1 the probability of one
-    float reach;  // metres, along which they find lights
+    float count;  // number of samples; below 1, the probability of one sample
+    float reach;  // metres, of the rays that look for lights
 };
 
-/// Narrow lobes more than once, and as far as they reach: lights are seldom picked within them. Others where emitters are close by, and the
-/// roughest of them now and then: a point of those is picked for its area and not for being near, so seldom and with a weight as large as
-/// that is seldom. That it might be found by its solid angle bounds it where it is about as bright as the scene's lamps are, and
-/// short rays are cheap. The bound is 1 / count, and what comes near it is rarer the rougher the surface is.
+/// Narrow lobes are sampled more than once and without limit of distance, because picked lights rarely fall within
+/// them. Other lobes are sampled where emitters are near, the roughest only with some probability. There picking is by
+/// area, without regard to distance: a near point is picked rarely, and its weight is the inverse of that small
+/// probability. Material sampling finds it per solid angle, which bounds its weight by about 1 / count for a point of
+/// the lamps' mean radiance. Short rays cost little. On a rougher surface fewer points come near the bound.
 FN BsdfCandidates bsdf_candidates(IN(SurfaceBsdf) bsdf, IN(CandidatePicker) picker) {
     BsdfCandidates c;
     c.count = 0.0f;
@@ -31,24 +33,24 @@ FN BsdfCandidates bsdf_candidates(IN(SurfaceBsdf) bsdf, IN(CandidatePicker) pick
     return c;
 }
 
-/// Whether material sampling could have found the light point.
+/// Whether material sampling can find the light point.
 FN bool is_within(IN(BsdfCandidates) c, vec3 origin, IN(SeenLight) light) {
     float distance = light.distant ? INFINITE_DISTANCE : length(light.end - origin);
     return light.by_chance && MUTANT(CANDIDATE_BEYOND_REACH, distance <= c.reach, true);
 }
 
-/// A surface that takes its light from a reservoir.
+/// A first vertex that may take its light from a reservoir.
 struct FirstSurface {
-    bool takes_light;  // else the rest means nothing
+    bool takes_light;  // false: the other fields are undefined
     SurfaceBsdf bsdf;
     vec3 wo;
-    vec3 origin;  // of its rays
+    vec3 origin;  // of rays that leave it
     ReuseSurface packed;
     bool reuses;
     Sampler random;
 };
 
-/// What a camera's ray met.
+/// The first vertex where the camera ray hit.
 FN FirstSurface load_first_surface(uvec2 pixel, IN(ResamplingPass) pass, IN(Hit) hit) {
     FirstSurface first;
     first.takes_light = false;
@@ -70,8 +72,9 @@ FN FirstSurface load_first_surface(uvec2 pixel, IN(ResamplingPass) pass, IN(Hit)
     return first;
 }
 
-/// What light points are picked for: the surface as others see it, and, where none will, white paper behind it, lest the true lobes be where
-/// its narrow ones are not. Most such surfaces look at the integrand once more when they sample their material.
+/// The surface that light points are picked for: the packed surface, as neighbours see it. Where no neighbour reuses
+/// it, its narrow lobes may miss the true lobes; a white diffuse term is then added, so that the target is positive
+/// wherever the BSDF is. Most of these surfaces evaluate the integrand again when they sample their material.
 FN TargetSurface picking_surface(IN(FirstSurface) first) {
     TargetSurface s = unpack_reuse_surface(first.packed, features());
     if (!first.reuses) {
@@ -80,7 +83,7 @@ FN TargetSurface picking_surface(IN(FirstSurface) first) {
     return s;
 }
 
-/// Light points, one kept in proportion to the target.
+/// Picks light points and selects one in proportion to target over density.
 FN Resampling resample_lights(IN(TargetSurface) surface, IN(CandidatePicker) picker, IN(Sampler) random) {
     Resampling chosen = begin_resampling();
     uint count = constants.light_count > 0u ? constants.resampling.light_candidates : 0u;
@@ -105,19 +108,19 @@ FN Resampling resample_lights(IN(TargetSurface) surface, IN(CandidatePicker) pic
     return chosen;
 }
 
-/// Of confidence 1 whatever it holds.
+/// The confidence is 1, even for a null sample.
 FN Reservoir initial_reservoir(IN(Resampling) chosen) {
     return end_resampling(chosen, 1.0f, MUTANT(CONFIDENCE_BY_SAMPLE, 1.0f, clamp(chosen.target, 0.1f, 10.0f)));
 }
 
-/// The target of what is chosen in the end: the one that others can evaluate, or, where none will, the integrand itself.
+/// The target of the final selection: the one that neighbours can evaluate or, without neighbours, the integrand.
 FN float candidate_target(IN(FirstSurface) first, IN(SeenLight) light, vec3 f) {
     return first.reuses ? unoccluded_target(unpack_reuse_surface(first.packed, features()), light)
                         : target_of_reflectance(f, light);
 }
 
-/// How much of its weight a picked point gives to sampling the material, which is done q times, by the balance heuristic:
-/// q p_bsdf / (q p_bsdf + n p_pick), where that may find it.
+/// The share of a picked point's weight that material sampling takes over: q p_bsdf / (q p_bsdf + n p_pick), the
+/// balance heuristic for q material samples. It is 0 where material sampling cannot find the point.
 FN float bsdf_share(IN(FirstSurface) first, IN(CandidatePicker) picker, IN(BsdfCandidates) c, IN(LightPoint) picked,
                     IN(SeenLight) light, float pdf) {
     if (!is_within(c, first.origin, light)) {
@@ -128,11 +131,13 @@ FN float bsdf_share(IN(FirstSurface) first, IN(CandidatePicker) picker, IN(BsdfC
     return MUTANT(PICKED_KEEPS_ALL, pdf_bsdf / (pdf_bsdf + pdf_picked), 0.0f);
 }
 
-/// Takes from a picked point what sampling the material is to add, or leaves a request for it. Sampling finds a point if no emitter is before
-/// it (trace_emitters). Where nobody else takes the reservoir over, that need not be asked: of a point that is seen it is so, and one that is
-/// not weighs nothing in the end. But others may see what is hidden from here, and to them the shares have to add up to 1: there a ray among
-/// the emitters asks. Where the share r is small it seldom pays to look: with probability a = min(1, r / BSDF_SHARE_LEAST) the point gives up
-/// r / a if no emitter is before it, which comes to the same.
+/// Removes material sampling's share from a picked point, or requests a ray for that. Material sampling finds a point
+/// only if no emitter is in front of it (trace_emitters).
+/// Without reuse no ray is needed. A visible point has no emitter in front of it; an occluded point contributes zero.
+/// With reuse a neighbour may see a point that is occluded here, and there the shares have to sum to 1. So
+/// share_picked traces a ray among the emitters. For a small share r the ray is rarely worthwhile: with probability a
+/// = min(1, r / BSDF_SHARE_LEAST) the point loses the share r / a if no emitter is in front of it. The expectation is
+/// the same.
 FN void share_with_material(IN(FirstSurface) first, IN(CandidatePicker) picker, IN(BsdfCandidates) c,
                             INOUT(Reservoir) reservoir, INOUT(CandidateRequest) request) {
     if (!(c.count > 0.0f) || !(reservoir.weight > 0.0f)) {
@@ -156,7 +161,7 @@ FN void share_with_material(IN(FirstSurface) first, IN(CandidatePicker) picker, 
     reservoir = initial_reservoir(chosen);
 }
 
-/// How often the material is to be sampled.
+/// Whether the material is sampled, and whether its lobe is narrow, as CANDIDATE_… bits.
 FN uint bsdf_candidate_needs(IN(FirstSurface) first, IN(BsdfCandidates) c) {
     uvec4 pick = independent_words(first.random, DIMENSION_BSDF_CANDIDATE + 1u);
     return (unit_float(pick.y) < c.count ? CANDIDATE_SAMPLES_BSDF : 0u) | (c.count > 1.0f ? CANDIDATE_IS_NARROW : 0u);
@@ -166,7 +171,8 @@ FN bool needs_rays(IN(CandidateRequest) r) {
     return (r.needs & (CANDIDATE_SAMPLES_BSDF | CANDIDATE_SHARES)) != 0u;
 }
 
-/// The reservoir, for now, and the surface for others. Returns what share_picked and add_bsdf_candidate have to do, if anything.
+/// Stores the initial reservoir, before rays, and the surface for neighbours. Returns what share_picked and
+/// add_bsdf_candidate still have to do.
 FN CandidateRequest resample_candidates(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
     FirstVertex vertex = load_first_vertex(index);

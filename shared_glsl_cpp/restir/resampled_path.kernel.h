@@ -1,10 +1,11 @@
-// Where the passes of ReSTIR end and a path begins (restir.kernel.h). Nothing is traced here.
+// Begins a path from the result of the ReSTIR passes (restir.kernel.h). This file traces no rays.
 #ifndef RESAMPLED_PATH_KERNEL_H
 #define RESAMPLED_PATH_KERNEL_H
 
 #include "path/path.kernel.h"
 
-/// The path whose first vertex waits in memory, lit; its next ray, if it goes on, is to be traced.
+/// The path of which the first vertex, with its direct light, is taken from memory. The caller traces its next ray, if
+/// it continues.
 FN PathState begin_resampled_path(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
     PathState path = begin_path(pixel, pass.frame);

@@ -1,6 +1,6 @@
-// Weighted reservoirs in the form of GRIS (Lin et al. 2022): a chosen light point y and its unbiased contribution weight W, so that
-// f(y) W estimates the integral of f. Light points live in uv measure, in which reuse between pixels and frames is the identity shift
-// with Jacobian 1, even for lights that move or scale.
+// Weighted reservoirs in the form of GRIS (Lin et al. 2022): a selected light point y and its unbiased contribution
+// weight W, so that f(y) W estimates the integral of f. Light points are in uv measure. In it, reuse between pixels
+// and frames is the identity shift with Jacobian 1, even for lights that move or scale.
 #ifndef RESERVOIR_H
 #define RESERVOIR_H
 
@@ -13,15 +13,16 @@ CONST float TARGET_MIN = 1.0e-20f;  // a target below it counts as 0
 struct Reservoir {
     LightPoint point;
     float weight;      // W, per unit of uv measure; 0: a null sample
-    float confidence;  // c, in initial samplings
-    float target;      // p̂ of the point, where the reservoir was made
-    float favor;       // multiplies its weights wherever it is merged: 1, or FAVOR_HIDDEN
+    float confidence;  // c, in units of one initial reservoir
+    float target;      // p̂ of the point at the surface where the reservoir was made
+    float favor;       // factor of its weight in merges: 1, or FAVOR_HIDDEN
 };
 ASSERT_SIZE(Reservoir, 28);
 
-/// Of a point that was hidden when a shadow ray last asked, for this pixel or for whom it came from: it is likely to be hidden again. So it is
-/// chosen less often, and where it is, its favor is divided out of W (end_resampling). The expectation is the same whatever positive number
-/// that is, so no m_i need know of it, as they would of a target with visibility. Why a half: docs/decisions/0014-favor.md.
+/// The favor of a point that was occluded when a shadow ray last tested it, for this pixel or for one it came from: it
+/// is likely to be occluded again. A merge selects such a point with a smaller probability, and end_resampling divides
+/// the favor out of W. The expectation is the same for every positive favor, so the MIS weights do not depend on it; a
+/// target with visibility would change them. Why 1/2: docs/decisions/0014-favor.md.
 CONST float FAVOR_HIDDEN = 0.5f;
 
 FN Reservoir empty_reservoir() {
@@ -34,13 +35,13 @@ FN Reservoir empty_reservoir() {
     return r;
 }
 
-/// Candidates passing by; one is kept in proportion to its weight.
+/// Streaming selection of one candidate, in proportion to its weight.
 struct Resampling {
     LightPoint point;
-    float target;  // of the kept point
+    float target;  // of the selected point
     float favor;   // likewise
     float weight_sum;
-    float weight_lost;  // what rounding took from the sum: beyond 2^24 equal weights it would stand still
+    float weight_lost;  // rounding error of the sum; without it the sum stops growing beyond 2^24 equal weights
 };
 
 FN Resampling begin_resampling() {
@@ -53,7 +54,8 @@ FN Resampling begin_resampling() {
     return s;
 }
 
-/// A candidate of resampling weight w = m p̂(y) W, times `favor`; u in [0, 1). What is not a positive finite number is passed over.
+/// Adds a candidate with resampling weight w = m p̂(y) W, times `favor`; u is in [0, 1). Weights that are not positive
+/// and finite are ignored.
 FN void add_favored_candidate(INOUT(Resampling) s, IN(LightPoint) point, float target, float w, float favor, float u) {
     float weight = favor * w;
     if (!(target > MUTANT(TARGET_CUT_OFF, TARGET_MIN, 0.1f)) || !(weight > 0.0f && weight < INFINITE_DISTANCE)) {
@@ -71,17 +73,17 @@ FN void add_favored_candidate(INOUT(Resampling) s, IN(LightPoint) point, float t
     }
 }
 
-/// A candidate of which nobody knows whether it is seen.
+/// Adds a candidate whose visibility has never been tested.
 FN void add_candidate(INOUT(Resampling) s, IN(LightPoint) point, float target, float w, float u) {
     add_favored_candidate(s, point, target, w, 1.0f, u);
 }
 
-/// What another resampling chose, where its point has the target `target`, with the share m.
+/// Adds the selection of another resampling with MIS weight m. `target` is its target at the current surface.
 FN void add_reservoir(INOUT(Resampling) s, IN(Reservoir) r, float target, float m, float u) {
     add_favored_candidate(s, r.point, target, m * target * r.weight, r.favor, u);
 }
 
-/// W = scale · Σw / (p̂(y) · y's favor).
+/// Ends with W = scale · Σw / (p̂(y) · favor of y).
 FN Reservoir end_resampling(IN(Resampling) s, float scale, float confidence) {
     Reservoir r;
     r.point = s.point;
@@ -98,8 +100,8 @@ FN Reservoir end_resampling(IN(Resampling) s, float scale, float confidence) {
     return r;
 }
 
-// Multiple importance sampling between reservoirs. Index i is a neighbour with confidence c_i, c the canonical sample; S = Σ c_i over
-// the neighbours, C = S + c_c. Pairwise with defence: Bitterli 2022, ch. 9; Lin et al. 2022, supplement.
+// MIS weights between reservoirs. Index i is a neighbour with confidence c_i, index c the canonical sample. S = Σ c_i
+// over the neighbours, C = S + c_c. Pairwise MIS with defence: Bitterli 2022, ch. 9; Lin et al. 2022, supplement.
 
 /// m_i at the neighbour's own sample.
 FN float pairwise_neighbor_share(float c_i, float target_i, float c_canonical, float target_canonical, float s) {
@@ -108,7 +110,7 @@ FN float pairwise_neighbor_share(float c_i, float target_i, float c_canonical, f
     return both > 0.0f ? (s / (s + c_canonical)) * (c_i / s) * (own / both) : 0.0f;
 }
 
-/// What one neighbour leaves of m_c at the canonical sample; the sum over neighbours, plus c_c / C, is m_c.
+/// The term of one neighbour in m_c at the canonical sample. m_c is the sum over neighbours plus c_c / C.
 FN float pairwise_canonical_share(float c_i, float target_i, float c_canonical, float target_canonical, float s) {
     float own = c_canonical * target_canonical;
     float both = own + s * target_i;

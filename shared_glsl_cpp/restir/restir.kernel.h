@@ -1,17 +1,17 @@
-// ReSTIR direct light (Bitterli et al. 2020) in its unbiased GRIS form (Lin et al. 2022), as passes over the film:
-// `first hits` traces the camera's rays.
-// `candidates` resamples light points for what the rays met, in passes that pick lights, sample materials where that pays, and trace shadow
-// rays if visibility is `target` or `biased-initial`.
-// `temporal` merges what the same surface had a frame before; `spatial` merges what neighbours have.
-// `shadows` traces the shadow ray to the point that came out.
-// `shade` takes the first vertex's direct light from that point and goes on as a path.
-// `ris` is all of them but the two that merge.
+// ReSTIR for direct light (Bitterli et al. 2020) in its unbiased GRIS form (Lin et al. 2022), as passes over the film:
+// `first hits` traces the camera rays.
+// `candidates` resamples light points for the first vertices. Its own passes pick lights, sample materials where that
+// reduces noise, and trace shadow rays if the visibility setting is `target` or `biased-initial`.
+// `temporal` merges reservoirs of the frame before; `spatial` merges reservoirs of neighbours.
+// `shadows` traces the shadow ray to the selected point.
+// `shade` takes the first vertex's direct light from that point and continues as a path.
+// `ris` runs all of them except `temporal` and `spatial`.
 //
-// Passes that trace a ray of every pixel do little else: a device that traverses in its shaders' own registers has more rays in
-// flight then.
+// Passes that trace one ray per pixel do little else, because a device whose traversal shares registers with the
+// shader can then keep more rays in flight.
 //
-// One frame is one sample of every pixel. The first-vertex hits and the reservoirs lie in memory between passes (hooks.md); a set is
-// one whole film of them.
+// One frame is one sample of every pixel. First vertices and reservoirs are kept in memory between passes (hooks.md).
+// A set is one array over the film.
 #ifndef RESTIR_KERNEL_H
 #define RESTIR_KERNEL_H
 
@@ -21,8 +21,9 @@
 
 FN bool has_emitters() { return feature(FEATURE_EMISSIVE) && constants.emissive_triangle_count > 0u; }
 
-/// What sampling the material finds, if anything, with the density of finding it so, all times together: the nearest emitter or, where there
-/// is none, the environment, whatever else is before it. `i`: which time.
+/// The light point that material sample number `i` finds, if any: the nearest emitter, or the environment if no
+/// emitter is hit, whatever else occludes them. Its pdf is the expected number of times that all material samples find
+/// it.
 FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(CandidatePicker) picker, uint i, INOUT(uint) rays) {
     LightPointSample found;
     found.point = no_light_point();
@@ -50,7 +51,7 @@ FN LightPointSample find_light_by_bsdf(IN(FirstSurface) first, IN(CandidatePicke
     return found;
 }
 
-/// Takes from a picked point what it shares with sampling the material, unless an emitter is before it.
+/// Removes material sampling's share from a picked point's weight, unless an emitter is in front of the point.
 FN void share_picked(IN(CandidateRequest) request, IN(ResamplingPass) pass) {
     if ((request.needs & CANDIDATE_SHARES) == 0u) {
         return;
@@ -70,7 +71,7 @@ FN void share_picked(IN(CandidateRequest) request, IN(ResamplingPass) pass) {
     store_reservoir(pass.reservoirs, request.pixel, picked);
 }
 
-/// Adds what sampling the material finds to what there is, once an iteration of the pass.
+/// Adds the light point found by one material sample to the reservoir. Called once for each iteration of the pass.
 FN void add_bsdf_candidate(IN(CandidateRequest) request, IN(ResamplingPass) pass) {
     uint least = CANDIDATE_SAMPLES_BSDF | (pass.iteration > 0u ? CANDIDATE_IS_NARROW : 0u);
     if ((request.needs & least) != least) {
@@ -98,7 +99,7 @@ FN void add_bsdf_candidate(IN(CandidateRequest) request, IN(ResamplingPass) pass
     store_reservoir(pass.reservoirs, index, initial_reservoir(chosen));
 }
 
-/// The camera's ray.
+/// Traces the camera ray.
 FN void find_first_vertex(uvec2 pixel, IN(ResamplingPass) pass) {
     PathState path = begin_path(pixel, pass.frame);
     FirstVertex vertex;
@@ -109,7 +110,7 @@ FN void find_first_vertex(uvec2 pixel, IN(ResamplingPass) pass) {
     store_first_vertex(pixel_index(pixel), vertex);
 }
 
-/// An initial reservoir keeps only what is seen.
+/// Drops the initial sample if it is occluded.
 FN void test_candidate(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
     Reservoir reservoir = load_reservoir(pass.reservoirs, index);
@@ -127,8 +128,8 @@ FN void test_candidate(uvec2 pixel, IN(ResamplingPass) pass) {
     }
 }
 
-/// Whether the point that a reservoir ended with is seen from its first vertex: for the light of this frame, and as the favor with which the
-/// point is handed on. Where the target has visibility, it is seen.
+/// Traces the shadow ray to the selected point. The result serves this frame's direct light and sets the favor with
+/// which the point is passed on. Where the target includes visibility, the point is known to be visible.
 FN void trace_shadow_of_chosen(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
     Reservoir chosen = load_reservoir(pass.reservoirs, index);
@@ -151,7 +152,7 @@ FN void trace_shadow_of_chosen(uvec2 pixel, IN(ResamplingPass) pass) {
     }
 }
 
-/// The sample of this frame.
+/// The radiance of this frame's sample.
 FN PathSample shade_resampled(uvec2 pixel, IN(ResamplingPass) pass) {
     PathState path = begin_resampled_path(pixel, pass);
     while (path.goes_on || awaits_shadow_ray(path)) {

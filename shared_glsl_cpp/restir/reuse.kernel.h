@@ -1,15 +1,16 @@
-// Merging reservoirs of other pixels, or of the frame before, into a pixel's own (GRIS, Lin et al. 2022).
+// Merges reservoirs of other pixels, or of the frame before, into a pixel's reservoir (GRIS, Lin et al. 2022).
 //
-// What keeps this unbiased: a neighbour takes part, with its confidence, whatever its reservoir holds; whether it takes part depends on
-// geometry alone; and its share of a light point is the target at the surface, among the lights and past the occluders, that its
-// reservoir was made for. Its favor is in none of these, and what is chosen loses it again.
+// The merge is unbiased for three reasons. A neighbour takes part with its confidence, whatever its reservoir holds.
+// Whether it takes part depends on geometry alone. Its MIS weight at a light point uses its own target: at the
+// surface, with the lights and occluders, for which its reservoir was made. The favor is in none of these, and it is
+// divided out after the selection.
 #ifndef REUSE_KERNEL_H
 #define REUSE_KERNEL_H
 
 #include "restir/candidates.kernel.h"
 #include "restir/target_visibility.kernel.h"
 
-/// Reservoirs to merge: pixels of one set, with the surfaces and the lights they were made for.
+/// The reservoirs to merge: pixels of one set, with the surfaces and the moment that they were made for.
 struct Neighborhood {
     uint count;
     uint pixels[RESAMPLING_MAX_NEIGHBORS];
@@ -30,13 +31,14 @@ FN TargetSurface neighbor_surface(IN(Neighborhood) others, uint i) {
     return unpack_reuse_surface(load_reuse_surface(others.surface_set, others.pixels[i]), features());
 }
 
-/// One random number for each merge of neighbour `i`; the canonical sample takes one of its own.
+/// A random number for the merge of neighbour `i`. The canonical sample uses a number of its own.
 FN float pick_number(IN(Sampler) random, uint dimension, uint i) {
     return unit_float(independent_words(random, dimension + i).x);
 }
 
-/// Pairwise MIS with defence. A null sample keeps its confidence. Each neighbour is asked for twice, for its point here and for the
-/// own point there, and by one call: where the loop held two traces, NVIDIA's driver gave wrong answers (decision 0024).
+/// Pairwise MIS with defence. A null sample keeps its confidence. The loop evaluates the target twice for each
+/// neighbour: of its point here, and of the canonical point there. One call site serves both, because a loop with two
+/// traces gave wrong results with NVIDIA's driver (decision 0024).
 FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target, IN(Neighborhood) others,
                             float others_confidence, IN(Sampler) random, uint dimension, INOUT(uint) rays) {
     Resampling chosen = begin_resampling();
@@ -76,8 +78,8 @@ FN Reservoir merge_pairwise(IN(TargetSurface) own_surface, IN(Reservoir) own, fl
     return end_resampling(chosen, 1.0f, others_confidence + own.confidence);
 }
 
-/// Confidence times target at `y`, summed over all that take part: the denominator of the generalised balance heuristic; or, for
-/// 1/Z, the confidences alone of those that could have made it.
+/// Sum over all samples of confidence times target at `y`: the denominator of the generalised balance heuristic. For
+/// 1/Z (`by_target` false): the sum of the confidences of those that could have produced `y`.
 FN float total_at(IN(LightPoint) y, float own_confidence, float own_target, IN(Neighborhood) others, bool by_target,
                   INOUT(uint) rays) {
     float total = own_target > 0.0f ? own_confidence * (by_target ? own_target : 1.0f) : 0.0f;
@@ -89,7 +91,7 @@ FN float total_at(IN(LightPoint) y, float own_confidence, float own_target, IN(N
     return total;
 }
 
-/// The generalised balance heuristic, for reference.
+/// The generalised balance heuristic, as a reference.
 FN Reservoir merge_balance(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target, IN(Neighborhood) others,
                            float others_confidence, IN(Sampler) random, uint dimension, INOUT(uint) rays) {
     Resampling chosen = begin_resampling();
@@ -112,8 +114,8 @@ FN Reservoir merge_balance(IN(TargetSurface) own_surface, IN(Reservoir) own, flo
     return end_resampling(chosen, 1.0f, others_confidence + own.confidence);
 }
 
-/// Weights by confidence alone, put right at the end by those that could have made the chosen point (1/Z), or not put right (1/M,
-/// biased): Bitterli et al. 2020, algorithms 6 and 4.
+/// Weights by confidence alone. 1/Z divides at the end by the confidences of those that could have produced the
+/// selected point; 1/M, which is biased, by all confidences. Bitterli et al. 2020, algorithms 6 and 4.
 FN Reservoir merge_by_confidence(IN(TargetSurface) own_surface, IN(Reservoir) own, float own_target,
                                  IN(Neighborhood) others, float others_confidence, IN(Sampler) random, uint dimension,
                                  INOUT(uint) rays) {
@@ -137,7 +139,7 @@ FN Reservoir merge_by_confidence(IN(TargetSurface) own_surface, IN(Reservoir) ow
     return end_resampling(chosen, total > 0.0f ? 1.0f / total : 0.0f, confidence);
 }
 
-/// `own`: the pixel's reservoir, the canonical sample, which always takes part.
+/// `own` is the pixel's reservoir: the canonical sample, which always takes part.
 FN Reservoir merge_reservoirs(IN(TargetSurface) own_surface, IN(Reservoir) own, IN(Neighborhood) others, IN(Sampler) random,
                               uint dimension, INOUT(uint) rays) {
     float others_confidence = 0.0f;

@@ -1,10 +1,10 @@
-// ReSTIR's passes that merge (restir.kernel.h): whom a pixel reuses.
+// ReSTIR's passes that merge (restir.kernel.h): which reservoirs a pixel reuses.
 #ifndef REUSE_PASSES_KERNEL_H
 #define REUSE_PASSES_KERNEL_H
 
 #include "restir/reuse.kernel.h"
 
-/// The first vertex's place a frame before.
+/// The position of the first vertex at the previous moment.
 FN vec3 previous_position(vec3 position, IN(Hit) hit) {
     if (!feature(FEATURE_MOTION)) {
         return position;
@@ -18,7 +18,7 @@ FN vec3 previous_position(vec3 position, IN(Hit) hit) {
     return transform_point(instance, a + hit.barycentrics.x * (b - a) + hit.barycentrics.y * (c - a));
 }
 
-/// The square of pixels among which a pixel may reuse: its copy of the view, or the film.
+/// The rectangle of pixels whose reservoirs a pixel may reuse: its copy of the view, or the whole film.
 FN void reuse_bounds(uvec2 pixel, OUT(uvec2) first, OUT(uvec2) size) {
     first = uvec2(0u, 0u);
     size = constants.size;
@@ -40,7 +40,7 @@ FN void count_rays(uint index, uint rays) {
     }
 }
 
-/// Merges what the surface had a frame before.
+/// Merges the reservoir of the same surface point in the frame before.
 FN void reuse_temporal(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
     ReuseSurface kept = load_reuse_surface(pass.surfaces, index);
@@ -78,7 +78,7 @@ FN void reuse_temporal(uvec2 pixel, IN(ResamplingPass) pass) {
     count_rays(index, rays);
 }
 
-/// Merges what neighbours have.
+/// Merges reservoirs of neighbours.
 FN void reuse_spatial(uvec2 pixel, IN(ResamplingPass) pass) {
     uint index = pixel_index(pixel);
     ReuseSurface kept = load_reuse_surface(pass.surfaces, index);

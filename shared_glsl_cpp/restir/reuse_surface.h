@@ -1,5 +1,5 @@
-// A first vertex as neighbours in space and time see it: enough to evaluate the target function there (target.h), in 36 bytes and in world
-// space, so that it stays true when what it was taken from has moved.
+// A first vertex as neighbours in space and time see it: enough to evaluate the target function there (target.h), in
+// 36 bytes. It is in world space, so that it stays valid when its object has moved.
 #ifndef REUSE_SURFACE_H
 #define REUSE_SURFACE_H
 
@@ -8,9 +8,9 @@
 
 SHARED_BEGIN
 
-/// Packed: unit vectors octahedral, colours with a shared exponent.
+/// Packed: unit vectors are octahedral, colours have a shared exponent.
 struct ReuseSurface {
-    vec3 position;  // off the surface, where its rays start
+    vec3 position;  // origin of rays that leave the surface
     uint geometric_normal;
     uint normal;
     uint wo;
@@ -42,11 +42,11 @@ FN vec3 unpack_unit_vector(uint bits) {
     return normalize(vec3(x + (x < 0.0f ? fold : -fold), y + (y < 0.0f ? fold : -fold), z));
 }
 
-/// Colours in [0, 1] as three 9-bit fractions of a power of two; any positive channel stays positive.
+/// Colours in [0, 1] as three 9-bit fractions of a power of two. A positive channel stays positive.
 FN uint pack_color(vec3 color) {
     vec3 c = clamp(color, vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 1.0f, 1.0f));
     float largest = max(max_component(c), 1.0e-9f);
-    uint exponent = clamp((floatBitsToUint(largest) >> 23) + 1u, 96u, 127u);  // of a power of two above the largest
+    uint exponent = clamp((floatBitsToUint(largest) >> 23) + 1u, 96u, 127u);  // of a power of two above all channels
     float scale = 511.0f / uintBitsToFloat(exponent << 23);
     uint x = min(uint(c.x * scale) + (c.x > 0.0f ? 1u : 0u), 511u);
     uint y = min(uint(c.y * scale) + (c.y > 0.0f ? 1u : 0u), 511u);
@@ -73,7 +73,7 @@ FN ReuseSurface no_reuse_surface() {
 
 FN bool is_valid(IN(ReuseSurface) s) { return (s.rest & REUSE_SURFACE_VALID) != 0u; }
 
-/// The normal of a surface that neighbours are to know.
+/// The normal of a surface that neighbours use for the target.
 FN vec3 reuse_normal(IN(SurfaceBsdf) bsdf, vec3 wo) {
     if (bsdf.mapped == NORMAL_MAP_SHADING) {
         return bend_toward(bsdf.mapped_normal, bsdf.geometric_normal, MAPPED_COS);
@@ -98,10 +98,11 @@ FN ReuseSurface pack_reuse_surface(vec3 position, IN(SurfaceBsdf) bsdf, vec3 wo)
     return s;
 }
 
-/// Whether neighbours may reuse what a surface found. Where the target had to widen the lobe, the integrand exceeds it
-/// by the square of the ratio: a point that others chose by the wide lobe would be a firefly now and then, where
-/// sampling the material finds none. The same holds where light comes by a narrow lobe of a microfacet normal map's
-/// tangent facet. Rounding of wo moves the half vector the more, the more grazing the view is.
+/// Whether neighbours may reuse a surface's reservoir. Where the target widens a lobe, the integrand exceeds the
+/// target by the square of the ratio of widths. A point that a neighbour selected by the wide lobe would sometimes be
+/// a firefly; material sampling finds such points without fireflies. The same holds for narrow lobes of a microfacet
+/// normal map's tangent facet. At grazing views the rounding of wo moves the half vector more, so the limit on alpha
+/// rises.
 FN bool wants_reuse(IN(SurfaceBsdf) bsdf, vec3 wo) {
     vec3 normal = reuse_normal(bsdf, wo);
     if (bsdf.mapped == NORMAL_MAP_SHADING) {
@@ -112,7 +113,7 @@ FN bool wants_reuse(IN(SurfaceBsdf) bsdf, vec3 wo) {
     return bsdf.parameters.alpha >= least && bsdf.parameters.alpha * dot(normal, wo) >= 0.5f * TARGET_ALPHA_MIN;
 }
 
-/// `features`: bits of scene_features.h that may be needed; without normal maps their code is dropped.
+/// `features` are the bits of scene_features.h that may be needed. Without normal maps their code is dropped.
 FN TargetSurface unpack_reuse_surface(IN(ReuseSurface) s, uint features) {
     TargetSurface t;
     t.position = s.position;
@@ -131,8 +132,8 @@ FN TargetSurface unpack_reuse_surface(IN(ReuseSurface) s, uint features) {
     return t;
 }
 
-/// Whether two first vertices are alike enough for reuse to pay: near to one plane, facing alike. Depends on geometry alone, so it
-/// biases nothing. `eye`: of the camera.
+/// Whether two first vertices are similar enough for reuse to reduce noise: near one plane, with similar normals. The
+/// test uses geometry alone, so it introduces no bias. `eye` is the camera's position.
 FN bool is_similar(IN(ReuseSurface) a, IN(ReuseSurface) b, vec3 eye) {
     if (!is_valid(a) || !is_valid(b)) {
         return false;

@@ -1,5 +1,6 @@
-// The target with its visibility: whether a surface sees a light point, and whether the target asks (`--reuse-visibility target`). A pass
-// that is compiled with REUSE_WITHOUT_RAYS serves settings under which the target does not ask, and holds no code for rays.
+// The target with visibility: whether a surface sees a light point, if the target includes visibility
+// (VISIBILITY_IN_TARGET). A pass compiled with REUSE_WITHOUT_RAYS serves settings whose target ignores visibility, and
+// has no code for rays.
 #ifndef TARGET_VISIBILITY_KERNEL_H
 #define TARGET_VISIBILITY_KERNEL_H
 
@@ -11,7 +12,8 @@ FN bool target_sees(vec3 origin, IN(SeenLight) light, IN(LightPoint) y, uint mom
 
 #else
 
-/// Names the shadow rays to a light point: whether they pass stochastic alpha is a property of the point, the same for every surface.
+/// The alpha key of shadow rays to a light point. It depends on the point alone, so that stochastic alpha is the same
+/// for every surface.
 FN uint visibility_key(IN(LightPoint) y) {
     if (!feature(FEATURE_ALPHA)) {
         return 0u;
@@ -19,7 +21,7 @@ FN uint visibility_key(IN(LightPoint) y) {
     return pcg4d(uvec4(y.light, floatBitsToUint(y.uv.x), floatBitsToUint(y.uv.y), constants.seed)).x >> 1;
 }
 
-/// Whether the light point is hidden now from a ray of that key.
+/// Whether a shadow ray with this key to the light point is occluded at the current moment.
 FN bool is_light_hidden(vec3 origin, IN(SeenLight) light, uint alpha_key) {
     vec3 direction = light.distant ? light.direction : light.end - origin;
     return trace_any(origin, direction, light.distant ? INFINITE_DISTANCE : 0.9999f, alpha_key);
@@ -35,7 +37,8 @@ FN bool is_light_occluded(vec3 origin, IN(SeenLight) light, IN(LightPoint) y, ui
     return is_light_hidden(origin, light, visibility_key(y));
 }
 
-/// Whether the target lets it shine on the surface: always, unless it asks for visibility. Counts the ray that this takes.
+/// Whether the target treats the light point as visible: always, unless the target includes visibility. Counts the ray
+/// if one is traced.
 FN bool target_sees(vec3 origin, IN(SeenLight) light, IN(LightPoint) y, uint moment, INOUT(uint) rays) {
     if (!feature(FEATURE_TARGET_VISIBILITY) || constants.resampling.visibility != VISIBILITY_IN_TARGET) {
         return true;
@@ -46,7 +49,7 @@ FN bool target_sees(vec3 origin, IN(SeenLight) light, IN(LightPoint) y, uint mom
 
 #endif
 
-/// p̂ of a light point at a surface, among the lights and occluders of `moment`. Counts the rays it needs.
+/// p̂ of a light point at a surface, with the lights and occluders of `moment`. Adds the rays it traces to `rays`.
 FN float target_at(IN(TargetSurface) s, IN(LightPoint) y, uint moment, INOUT(uint) rays) {
     SeenLight light = see_light_point(y, s.position, moment);
     float target = unoccluded_target(s, light);

@@ -38,7 +38,7 @@ void CommandSlot::wait() {
 CommandRing::~CommandRing() {
     try {
         drain();
-    } catch (const std::exception&) {  // a device that is lost: nothing of it runs any more
+    } catch (const std::exception&) {  // the device is lost, so nothing runs any more
     }
 }
 

@@ -11,14 +11,14 @@ namespace diptych::core {
 
 using Record = std::function<void(Recorder&)>;
 
-/// A command buffer with a fence, used again and again.
+/// A command buffer with a fence, both reused.
 class CommandSlot {
 public:
     explicit CommandSlot(const Gpu& gpu);
 
     /// Records and submits; the submission begins with a barrier. The slot must not be in flight.
     void submit(const Record& record);
-    /// Waits for what was submitted, if anything.
+    /// Waits for the submission, if there is one.
     void wait();
     bool in_flight() const { return in_flight_; }
 
@@ -30,7 +30,7 @@ private:
     bool in_flight_ = false;
 };
 
-/// Submissions that nobody waits for: each comes after all that was submitted before it and before all that follows.
+/// Submissions without waiting. Each runs after everything submitted before it and before everything submitted later.
 class CommandRing {
 public:
     explicit CommandRing(const Gpu& gpu) : slots_{CommandSlot(gpu), CommandSlot(gpu)} {}
@@ -38,9 +38,9 @@ public:
     CommandRing(const CommandRing&) = delete;
     CommandRing& operator=(const CommandRing&) = delete;
 
-    /// Records and submits; waits first for the older of two in flight.
+    /// Records and submits. First waits for the older of two submissions in flight.
     void submit(const Record& record);
-    /// Waits for all.
+    /// Waits for all submissions.
     void drain();
 
 private:

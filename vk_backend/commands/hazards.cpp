@@ -29,7 +29,7 @@ std::optional<Barrier> Hazards::next(std::span<const Use> uses) {
     if (barrier.before != 0) {
         order(barrier);
     }
-    // Whoever is ordered after a write is ordered after all that the write itself waited for.
+    // Work ordered after a write is also ordered after everything that the write waited for.
     for (const Use& use : uses) {
         if (use.effect == Effect::write) {
             marks_[place(use.resource)] = {};

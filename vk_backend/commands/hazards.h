@@ -1,4 +1,4 @@
-// Which barriers a sequence of passes needs, from what each of them says that it reads and writes.
+// Computes the barriers of a sequence of passes from the resources that each pass reads and writes.
 #pragma once
 
 #include <array>
@@ -8,24 +8,24 @@
 
 namespace diptych::core {
 
-/// What one pass may hand on to another. Parts of a buffer that passes use apart are resources of their own.
+/// What one pass may write and another read. Parts of a buffer that passes use separately are separate resources.
 enum class Resource : std::uint8_t {
-    scene,       // its arrays, their addresses and the constants
-    structures,  // acceleration structures of both levels
+    scene,       // arrays of the scene, their addresses and the constants
+    structures,  // acceleration structures, bottom and top levels
     build_scratch,
     film,
     first_vertices,
     reservoirs,
     reuse_surfaces,
     candidate_list,
-    wave_paths,     // all of a WavePath but its radiance
-    wave_radiance,  // which shadow rays add to while paths go on
+    wave_paths,     // everything in a WavePath except its radiance
+    wave_radiance,  // shadow rays add to it while the paths continue
     wave_first_hits,
     wave_queues,
     wave_hits,
     wave_shadows,
     wave_counts,
-    recorded_rays,  // and their counters
+    recorded_rays,  // with their counters
     path_queries,
     path_records,
     histogram,
@@ -33,10 +33,10 @@ enum class Resource : std::uint8_t {
     count
 };
 
-/// Who uses it: each is a stage of the pipeline, with the accesses that it can make.
+/// The user of a resource: a pipeline stage with the accesses that it can make.
 enum class Unit : std::uint8_t { transfer, build, compute, trace, indirect, host, count };
 
-/// Appends commute: places are given out by atomic counters, and nobody reads until they are all there.
+/// Appends commute: atomic counters assign the positions, and nothing reads before all appends have ended.
 enum class Effect : std::uint8_t { read, write, append, count };
 
 struct Use {
@@ -45,30 +45,29 @@ struct Use {
     Effect effect = Effect::read;
 };
 
-/// A bit for every Unit.
+/// A set with one bit for each Unit.
 using Units = std::uint8_t;
 constexpr Units bit(Unit unit) {
     return static_cast<Units>(1U << static_cast<unsigned>(unit));
 }
 
-/// What comes before in these units has to end, and what it wrote has to be visible, before those units go on.
+/// Earlier work in the units `before` has to end, with its writes visible, before the units `after` start.
 struct Barrier {
     Units before = 0;
     Units after = 0;
 };
 
-/// Follows a sequence of passes. It holds what has been used since the beginning and is not yet ordered before all
-/// units.
+/// Tracks a sequence of passes. It holds every use since the beginning that is not yet ordered before all units.
 class Hazards {
 public:
-    /// The barrier that has to stand before a pass with these uses, if it needs one. Uses of one pass may contradict
-    /// one another: its shaders see to that.
+    /// The barrier that is needed before a pass with these uses, if any. Uses of the same pass may conflict: its
+    /// shaders resolve that.
     std::optional<Barrier> next(std::span<const Use> uses);
 
 private:
     struct Mark {
         bool present = false;
-        Units ordered = 0;  // before which units
+        Units ordered = 0;  // units that are ordered after this use
     };
     using Marks =
         std::array<std::array<Mark, static_cast<std::size_t>(Unit::count)>, static_cast<std::size_t>(Effect::count)>;

@@ -8,7 +8,7 @@ namespace {
 using Flags = vk::AccessFlagBits;
 using Stage = vk::PipelineStageFlagBits;
 
-/// In the order of Unit.
+/// Indexed by Unit.
 struct UnitMasks {
     vk::PipelineStageFlags stage;
     vk::AccessFlags writes;
@@ -16,7 +16,7 @@ struct UnitMasks {
 };
 const std::array<UnitMasks, static_cast<std::size_t>(Unit::count)> masks = {{
     {Stage::eTransfer, Flags::eTransferWrite, Flags::eTransferRead},
-    // Vertices, instances and transforms are read as a shader's data are.
+    // A build reads vertices, instances and transforms with shader-read access.
     {Stage::eAccelerationStructureBuildKHR, Flags::eAccelerationStructureWriteKHR,
      Flags::eAccelerationStructureReadKHR | Flags::eShaderRead},
     {Stage::eComputeShader, Flags::eShaderWrite, Flags::eShaderRead | Flags::eUniformRead},

@@ -1,4 +1,4 @@
-// Commands of one submission, with the barriers that they need between them.
+// Commands of one submission, with the barriers between them.
 #pragma once
 
 #include <initializer_list>
@@ -8,16 +8,16 @@
 
 namespace diptych::core {
 
-/// Whoever records a command says first what it uses. Within a submission, barriers come from that alone.
+/// Before each command its uses are declared. Within a submission, barriers are derived from these declarations alone.
 class Recorder {
 public:
-    /// Begins with a barrier for all that was submitted before, whatever it was.
+    /// Begins with a barrier for everything submitted before.
     explicit Recorder(const vk::raii::CommandBuffer& commands);
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    /// Of the next pass, or command: records a barrier where there is a hazard. `more` are uses beside those that its
-    /// shaders declare.
+    /// Declares the uses of the next pass or command, and records a barrier if there is a hazard. `more` are uses
+    /// beside those that the pass's shaders declare.
     void use(std::span<const Use> uses, std::initializer_list<Use> more = {});
     void use(std::initializer_list<Use> uses) { use(std::span<const Use>(), uses); }
 

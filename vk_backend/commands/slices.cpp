@@ -55,8 +55,8 @@ void SpeedEstimate::aim(double target_seconds) {
     }
 }
 
-// The estimate may fall by half a step at most, as cheap parts of an image are followed by dear ones, and the budget
-// grows eightfold.
+// The estimate falls to no less than half in one step, because cheap parts of an image may be followed by expensive
+// ones. The budget grows by no more than a factor of eight.
 void SpeedEstimate::learn(std::uint64_t work, double seconds) {
     if (work == 0) {
         return;

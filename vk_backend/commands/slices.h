@@ -1,4 +1,4 @@
-// A render cut into submissions, none of which takes long.
+// Cuts a render into submissions that each take a short time.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct Region {
     std::uint32_t height = 0;
 };
 
-/// What one does: some pixels, some samples of each.
+/// The work of one submission: some pixels, and some samples of each.
 struct Slice {
     Region region;
     std::uint32_t first_sample = 0;
@@ -22,34 +22,34 @@ struct Slice {
     std::uint64_t work() const { return std::uint64_t{region.width} * region.height * sample_count; }
 };
 
-/// Walks every (pixel, sample) of a region once: several samples of the whole region, or one sample of some rows, or of
-/// a part of a row, as the budget of each step allows. A pixel's samples come in order.
+/// Visits every (pixel, sample) of a region once. Depending on the budget, a step has several samples of the whole
+/// region, one sample of some rows, or one sample of a part of a row. The samples of a pixel are in order.
 class SliceCursor {
 public:
     SliceCursor(Region region, std::uint32_t first_sample, std::uint32_t sample_count);
 
     bool done() const { return remaining_ == 0 || region_.width == 0 || region_.height == 0; }
-    /// The next slice, of at most max(1, budget) pixel samples and max(1, pixel_limit) pixels. Must not be done.
+    /// The next slice, with at most max(1, budget) pixel samples and max(1, pixel_limit) pixels. Requires !done().
     Slice next(std::uint64_t budget, std::uint64_t pixel_limit);
 
 private:
     Region region_;
     std::uint32_t sample_;
     std::uint32_t remaining_;
-    std::uint32_t x_ = 0;  // where within the region the current sample stands
+    std::uint32_t x_ = 0;  // position of the current sample within the region
     std::uint32_t y_ = 0;
 };
 
-/// How much work fits the time of one dispatch, learned from dispatches done.
+/// Learns from finished dispatches how much work fits into the time of one dispatch.
 class SpeedEstimate {
 public:
-    /// Starts from a small budget, for a device of unknown speed.
+    /// Starts with a small budget, because the device's speed is unknown.
     explicit SpeedEstimate(double target_seconds = 0.06, std::uint64_t first_budget = 4096);
 
     std::uint64_t budget() const { return budget_; }
-    /// From now on, dispatches of so many seconds.
+    /// Sets the target time of later dispatches.
     void aim(double target_seconds);
-    /// Nothing from no work.
+    /// Updates the estimate. No work leaves it unchanged.
     void learn(std::uint64_t work, double seconds);
 
 private:

@@ -37,7 +37,7 @@ void TimedQueue::submit(std::uint64_t work, std::span<const TimedPart> parts) {
     slot.commands.submit([&](Recorder& recorder) {
         const bool timed = gpu_.tick_seconds > 0;
         const vk::raii::CommandBuffer& commands = recorder;
-        // All at the bottom of the pipe: each is then written when all earlier work has ended.
+        // All timestamps are written at the bottom of the pipe: each after all earlier work has ended.
         std::uint32_t query = 0;
         const auto stamp = [&] {
             if (timed) {

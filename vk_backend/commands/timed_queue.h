@@ -1,4 +1,4 @@
-// Work in flight on the device, and the time it took there.
+// Submissions in flight, and the device time they take.
 #pragma once
 
 #include <array>
@@ -11,32 +11,32 @@
 
 namespace diptych::core {
 
-/// A stretch of a submission, timed by itself.
+/// A part of a submission that is timed separately.
 struct TimedPart {
     std::size_t label = 0;
     Record record;
 };
 
-/// Keeps two submissions in flight. Each starts after the one before it, which it may read from and write over.
+/// Keeps two submissions in flight. Each runs after the one before it, and may read and overwrite its results.
 class TimedQueue {
 public:
-    /// `finished(work, seconds)` is called in order, as submissions end.
+    /// `finished(work, seconds)` is called in order, when a submission has ended.
     using Finished = std::function<void(std::uint64_t, double)>;
 
     explicit TimedQueue(const Gpu& gpu, Finished finished = {});
 
     static constexpr std::size_t most_parts = 128;  // of one submission
 
-    /// Submits; waits first for the older of two in flight.
+    /// Submits. First waits for the older of two submissions in flight.
     void submit(std::uint64_t work, const Record& record);
     void submit(std::uint64_t work, std::span<const TimedPart> parts);
-    /// Waits for all.
+    /// Waits for all submissions.
     void drain();
-    /// Device time of all that has ended: by timestamps where the queue has them.
+    /// Device time of all finished submissions; from timestamps if the queue has them.
     double seconds() const { return seconds_; }
-    /// Likewise of all parts under a label; 0 where the queue has no timestamps.
+    /// Device time of all parts with this label; 0 if the queue has no timestamps.
     double seconds_of(std::size_t label) const { return label < by_label_.size() ? by_label_[label] : 0; }
-    /// Labels mean something else from now on. Nothing may be in flight.
+    /// Resets all times by label, before labels get a new meaning. Nothing may be in flight.
     void forget_labels() { by_label_.clear(); }
 
 private:
@@ -44,8 +44,8 @@ private:
         CommandSlot commands;
         vk::raii::QueryPool queries;
         std::uint64_t work = 0;
-        std::vector<std::size_t> labels;  // of its parts
-        double submitted = 0;  // by now_seconds
+        std::vector<std::size_t> labels;  // of the submission's parts
+        double submitted = 0;  // time of now_seconds
     };
 
     Slot make_slot() const;
@@ -57,7 +57,7 @@ private:
     std::size_t next_ = 0;
     double seconds_ = 0;
     std::vector<double> by_label_;
-    double last_end_ = 0;  // by now_seconds
+    double last_end_ = 0;  // time of now_seconds
 };
 
 }  // namespace diptych::core

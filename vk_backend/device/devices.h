@@ -1,4 +1,4 @@
-// The machine's Vulkan devices and what they lack.
+// The machine's Vulkan devices, and the features that each of them lacks.
 #pragma once
 
 #include <cstdint>
@@ -22,23 +22,23 @@ struct VulkanDeviceInfo {
     std::uint64_t memory = 0;        // bytes, device-local
 };
 
-/// In Vulkan's order. Empty where there is no loader, driver or device.
+/// In Vulkan's order. Empty if there is no loader, driver or device.
 std::vector<VulkanDeviceInfo> list_vulkan_devices();
 
 VulkanDeviceInfo describe_device(const vk::raii::PhysicalDevice& device);
 
-/// A family with compute, preferably with graphics too, since that one is the main one everywhere; -1 where there is
-/// none.
+/// Index of a queue family with compute, preferably with graphics too, because that is the main family on all devices;
+/// -1 if there is none.
 int compute_queue_family(const vk::raii::PhysicalDevice& device);
 
-/// Picks by "" (the best usable), an index or a part of the name, case ignored. Throws NoDevice that says what is
-/// missing.
+/// Chooses a device by index or by a part of its name, ignoring case; "" chooses the best usable device. Throws
+/// NoDevice, which says what is missing.
 std::size_t choose_device_index(const std::vector<VulkanDeviceInfo>& infos, const std::string& choice);
 
 /// The same among an instance's devices.
 vk::raii::PhysicalDevice choose_device(const vk::raii::Instance& instance, const std::string& choice);
 
-/// Extensions that a usable device has and that are enabled on it.
+/// Device extensions that a usable device supports. All of them are enabled.
 const std::vector<const char*>& required_extensions();
 
 }  // namespace diptych::core

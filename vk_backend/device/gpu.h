@@ -1,5 +1,4 @@
-// The device that is rendered on: its queue and the limits that matter here. Renderers and what shows their films share
-// one.
+// The device that renders: its queue and its limits. Renderers and the display pass share one Gpu.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@ namespace diptych::core {
 struct GpuRequest {
     std::string device = {};                            // "" the best, else an index or a part of the name (devices.h)
     bool validation = false;                            // core and synchronisation validation
-    std::vector<std::string> instance_extensions = {};  // that a window's surface needs
+    std::vector<std::string> instance_extensions = {};  // needed by a window's surface
     bool presents = false;                              // VK_KHR_swapchain, and a queue that draws
 };
 
@@ -30,18 +29,18 @@ struct Gpu {
     vk::PhysicalDeviceMemoryProperties memory;
     vk::PhysicalDeviceRayTracingPipelinePropertiesKHR ray_tracing;
     std::uint64_t scratch_alignment = 1;  // of acceleration structure builds
-    double tick_seconds = 0;              // of timestamps; 0 where the queue has none
-    std::uint64_t tick_mask = 0;          // their valid bits
-    mutable std::mutex queue_mutex;       // held by whoever submits, presents or waits for the whole queue
+    double tick_seconds = 0;              // of a timestamp; 0 if the queue has none
+    std::uint64_t tick_mask = 0;          // valid bits of a timestamp
+    mutable std::mutex queue_mutex;       // held during submit, present and waiting for the queue
 };
 
 /// Opens the chosen device. Throws NoDevice or Error.
 std::shared_ptr<Gpu> open_gpu(const GpuRequest& request);
 
-/// Submits, from any thread.
+/// Submits; may be called from any thread.
 void submit(const Gpu& gpu, const vk::SubmitInfo& info, vk::Fence fence);
 
-/// Waits for all that any thread has submitted. Throws DeviceLost or another Error.
+/// Waits for all submissions of all threads. Throws DeviceLost or another Error.
 void wait_idle(const Gpu& gpu);
 
 }  // namespace diptych::core

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* layer_name = "VK_LAYER_KHRONOS_validation";
 
-// The library is never closed: drivers leave threads and exit handlers behind.
+// The library is never closed, because drivers leave threads and exit handlers behind.
 PFN_vkGetInstanceProcAddr open_loader() {
     const char* chosen = std::getenv("DIPTYCH_VULKAN_LOADER");
     std::vector<std::string> names = {"libvulkan.so.1", "libvulkan.so"};

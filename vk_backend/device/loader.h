@@ -1,4 +1,4 @@
-// The Vulkan loader, opened at run time, and an instance made with it.
+// Opens the Vulkan loader at run time and creates an instance.
 #pragma once
 
 #include <memory>
@@ -16,9 +16,9 @@ struct VulkanInstance {
     std::optional<vk::raii::DebugUtilsMessengerEXT> messenger;
 };
 
-/// Opens the loader (the library named by DIPTYCH_VULKAN_LOADER, else the system's) and makes a Vulkan 1.2 instance,
-/// with core and synchronisation validation where asked for, and with the extensions named. Throws NoDevice where there
-/// is no loader, no driver, an older Vulkan or no such extension; Error where the validation layer is missing.
+/// Opens the loader (the library named by DIPTYCH_VULKAN_LOADER, else the system's) and creates a Vulkan 1.2 instance
+/// with the given extensions and, if `validation`, with core and synchronisation validation. Throws NoDevice if there
+/// is no loader or driver, if Vulkan is too old or an extension is missing; Error if the validation layer is missing.
 VulkanInstance open_instance(bool validation, std::span<const std::string> extensions = {});
 
 }  // namespace diptych::core

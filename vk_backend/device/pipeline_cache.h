@@ -9,20 +9,21 @@
 
 namespace diptych::core {
 
-/// XDG_CACHE_HOME/diptych or ~/.cache/diptych, a file a device and driver version; empty where there is neither folder.
+/// The cache file in XDG_CACHE_HOME/diptych or ~/.cache/diptych, one for each device and driver version; empty if
+/// neither folder is defined.
 std::filesystem::path pipeline_cache_path(const Gpu& gpu);
 
-/// The bytes behind a checked header; empty where the file is missing, cut short or altered: a driver need not survive
-/// those.
+/// The contents after a header that is checked. Empty if the file is missing, truncated or altered, because a driver
+/// may crash on such data.
 std::vector<unsigned char> read_pipeline_cache(const std::filesystem::path& path);
 
-/// Replaces the file whole. Failing to is no error: the next run compiles again.
+/// Replaces the whole file. A failure is ignored: the next run compiles again.
 void write_pipeline_cache(const std::filesystem::path& path, std::span<const unsigned char> bytes);
 
-/// A cache with what the file holds.
+/// Creates a pipeline cache from the file's contents.
 vk::raii::PipelineCache open_pipeline_cache(const Gpu& gpu, const std::filesystem::path& path);
 
-/// Writes the cache back if it differs from the file.
+/// Writes the cache to the file if its contents changed.
 void save_pipeline_cache(const vk::raii::PipelineCache& cache, const std::filesystem::path& path);
 
 }  // namespace diptych::core

@@ -59,7 +59,7 @@ bool validation_wanted(bool option) {
 }
 
 vk::DebugUtilsMessengerCreateInfoEXT validation_messenger() {
-    // In C's structure, whose callback has one type: Vulkan-Hpp has changed its own between releases.
+    // The C structure, because Vulkan-Hpp has changed the type of its callback between releases.
     VkDebugUtilsMessengerCreateInfoEXT info = vk::DebugUtilsMessengerCreateInfoEXT();
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT;

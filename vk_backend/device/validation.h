@@ -1,4 +1,4 @@
-// What the validation layer said, over the whole process.
+// Messages of the validation layer, collected for the whole process.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@ struct DebugUtilsMessengerCreateInfoEXT;
 
 namespace diptych::core {
 
-/// Warnings and errors so far, the first 100 of them in full.
+/// All warnings and errors so far; the first 100 with their text.
 std::vector<std::string> validation_messages();
 std::uint64_t validation_message_count();
 void clear_validation_messages();
 
-/// Whether validation is wanted: by option or by DIPTYCH_VALIDATION=1.
+/// Whether validation is enabled: by `option` or by DIPTYCH_VALIDATION=1.
 bool validation_wanted(bool option);
 
-/// The callback that collects messages; each of the first 100 is printed to stderr too.
+/// The callback that collects messages. It also prints the first 100 to stderr.
 vk::DebugUtilsMessengerCreateInfoEXT validation_messenger();
 
 }  // namespace diptych::core

@@ -1,4 +1,4 @@
-// Vulkan-Hpp as this backend uses it: RAII handles, exceptions, no prototypes, our own way to the loader (loader.h).
+// Vulkan-Hpp as this backend uses it: RAII handles, exceptions, no prototypes, and dynamic loading (loader.h).
 #pragma once
 
 #define VULKAN_HPP_ENABLE_DYNAMIC_LOADER_TOOL 0
@@ -11,8 +11,7 @@
 
 namespace diptych::core {
 
-/// Runs `work`; a failing Vulkan call in it becomes an Error that says what was being done, DeviceLost where the device
-/// is lost.
+/// Runs `work`. A Vulkan call that fails becomes an Error that names the task, or DeviceLost if the device is lost.
 template <typename Work>
 auto in_context(const std::string& doing, Work&& work) {
     try {

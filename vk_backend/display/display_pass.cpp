@@ -24,7 +24,7 @@ using PipelineStage = vk::PipelineStageFlagBits;
 constexpr vk::Format format = vk::Format::eR8G8B8A8Unorm;
 constexpr vk::ImageSubresourceRange whole{
     .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1};
-constexpr std::uint32_t group_side = 16;  // of display.comp, which counts one bin an invocation
+constexpr std::uint32_t group_side = 16;  // of display.comp; each invocation counts one bin
 static_assert(group_side * group_side == shared::HISTOGRAM_BINS);
 
 #define ASSERT_LAYER(name, constant) static_assert(static_cast<std::uint32_t>(DisplayLayer::name) == shared::constant)
@@ -87,7 +87,7 @@ struct Change {
     vk::AccessFlags read;
 };
 
-// Of the image alone: buffers are the recorder's affair.
+// A barrier of the image alone; the recorder handles buffers.
 void change_layout(const vk::raii::CommandBuffer& commands, vk::Image image, const Change& change) {
     const vk::ImageMemoryBarrier barrier{.srcAccessMask = change.written,
                                          .dstAccessMask = change.read,
@@ -126,7 +126,7 @@ void bind(const Gpu& gpu, const DisplayPass& pass, DisplayPicture& picture) {
     gpu.device.updateDescriptorSets(writes, {});
 }
 
-// Where a bin begins.
+// Lower end of a bin.
 float bin_start(std::uint32_t bin) {
     return std::bit_cast<float>((shared::HISTOGRAM_FIRST + bin) << 21U);
 }
@@ -252,7 +252,7 @@ std::optional<DisplayRange> shown_range(const DisplayPicture& picture, std::uint
     if (total == 0) {
         return std::nullopt;
     }
-    // The bin below whose end the share lies.
+    // The bin in which the share of the count is reached.
     const auto bin_at = [&](double share) {
         std::uint64_t seen = 0;
         std::uint32_t bin = 0;

@@ -11,7 +11,7 @@
 
 namespace diptych::core {
 
-/// The values are those of shaders/display.h.
+/// Values as in shaders/display.h.
 enum class DisplayLayer : std::uint32_t {
     radiance = 0,
     albedo = 1,
@@ -19,27 +19,27 @@ enum class DisplayLayer : std::uint32_t {
     depth = 3,           // metres
     standard_error = 4,  // of the mean's luminance
     samples = 5,
-    nonfinite = 6,  // samples dropped
-    light_id = 7,   // of the point that the reservoir holds
+    nonfinite = 6,  // number of dropped samples
+    light_id = 7,   // of the light of the reservoir's light point
     reservoir_m = 8,
     reservoir_w = 9,
 };
 
-/// Whether a layer is one number a pixel, shown by a colour ramp between `low` and `high`.
+/// Whether a layer is one number per pixel, shown by a colour ramp from `low` to `high`.
 bool is_scalar(DisplayLayer layer);
 
-/// What is to be seen. Films may be of any size; each is stretched over the whole picture, pixel by nearest pixel.
+/// The request of one picture. Films may have any size; each is stretched over the whole picture, by nearest pixel.
 struct DisplayRequest {
     DeviceFilm left = {};
     DeviceFilm right = {};
-    std::uint32_t divider = ~0U;  // column of the picture from which on `right` is seen
-    bool difference = false;      // left - right instead of either: blue below zero, red above; `high` is full colour
+    std::uint32_t divider = ~0U;  // first column of the picture that shows `right`
+    bool difference = false;      // left - right: blue below zero, red above; `high` is full colour
     DisplayLayer layer = DisplayLayer::radiance;
-    ToneMap tonemap = ToneMap::Aces;  // of radiance, as the exposure
+    ToneMap tonemap = ToneMap::Aces;  // for radiance, as is the exposure
     float exposure_ev = 0;
-    float low = 0;             // of a scalar layer's ramp
-    float high = 1;            // likewise; above `low`
-    bool logarithmic = false;  // the ramp goes by the logarithm; `low` is above 0
+    float low = 0;             // lower end of a scalar layer's colour ramp
+    float high = 1;            // upper end; above `low`
+    bool logarithmic = false;  // the ramp is logarithmic; `low` must be positive
 };
 
 struct DisplayPass {
@@ -50,7 +50,7 @@ struct DisplayPass {
 
 DisplayPass make_display_pass(const Gpu& gpu);
 
-/// R8G8B8A8 of display values (sRGB encoded), from the top; for sampling in a fragment shader, in layout
+/// R8G8B8A8 display values (sRGB encoded), top row first, for a fragment shader to sample in layout
 /// eShaderReadOnlyOptimal.
 struct DisplayPicture {
     std::uint32_t width = 0;
@@ -58,19 +58,19 @@ struct DisplayPicture {
     vk::raii::DeviceMemory memory = nullptr;
     vk::raii::Image image = nullptr;
     vk::raii::ImageView view = nullptr;
-    Buffer histogram;   // of a scalar layer's numbers, as it is counted
-    Buffer histograms;  // counted, for the host, one a slot
+    Buffer histogram;   // of a scalar layer's values; the pass counts in it
+    Buffer histograms;  // host copies of finished histograms, one per slot
     vk::raii::DescriptorPool pool = nullptr;
-    vk::DescriptorSet set;  // the pool's, for the pass
+    vk::DescriptorSet set;  // of the pass; owned by the pool
 };
 
-/// Must outlive the frames in flight that show it. Throws Error where memory runs out.
+/// The picture must outlive the frames in flight that show it. Throws Error if memory runs out.
 DisplayPicture make_display_picture(const Gpu& gpu, const DisplayPass& pass, std::uint32_t width, std::uint32_t height);
 
 constexpr std::uint32_t display_slots = 2;  // frames in flight
 
-/// Between barriers of its own, for what renders in earlier submissions and for fragment shaders later on. The
-/// request's films must outlive the commands. Frames in flight at the same time have slots of their own.
+/// Records the display pass between barriers of its own: after rendering in earlier submissions, before fragment
+/// shaders. The films of the request must outlive the commands. Frames in flight at the same time use different slots.
 void record_display(const vk::raii::CommandBuffer& commands, const DisplayPass& pass, const DisplayPicture& picture,
                     const DisplayRequest& request, std::uint32_t slot = 0);
 
@@ -79,12 +79,12 @@ struct DisplayRange {
     float high = 0;
 };
 
-/// Where the numbers of the scalar layer or of the difference lay that the slot's last frame showed: 1st and 99th
-/// percentile of the sizes of those that are not 0, to a quarter octave outwards. None where there were none, or no
-/// frame yet. That frame has ended.
+/// The range of the values that the slot's last frame showed, for a scalar layer or a difference: 1st and 99th
+/// percentile of the magnitudes that are not 0, rounded outward to a quarter octave. Nothing if there were no such
+/// values or no frame yet. That frame must have ended.
 std::optional<DisplayRange> shown_range(const DisplayPicture& picture, std::uint32_t slot = 0);
 
-/// Display values in [0, 1], 3 channels, for write_png. The picture has been recorded and submitted.
+/// Display values in [0, 1], 3 channels, for write_png. The picture must have been recorded and submitted.
 Image read_display(const Gpu& gpu, const DisplayPicture& picture);
 
 }  // namespace diptych::core

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
 
-// Runs a call that shows images; what is amiss with the surface is told, the rest thrown.
+// Runs a call that acquires or presents images. Returns the surface's state; other errors are thrown.
 template <typename Call>
 SurfaceResult on_surface(const char* doing, Call&& call) {
     return in_context(doing, [&] {
@@ -41,7 +41,7 @@ vk::PresentModeKHR choose_mode(const Gpu& gpu, vk::SurfaceKHR surface, PresentMo
     return mode == PresentMode::newest && has_mailbox ? vk::PresentModeKHR::eMailbox : vk::PresentModeKHR::eFifo;
 }
 
-// A surface that takes its size from the swapchain says so by an extent of all ones.
+// A surface that takes its size from the swapchain reports an extent of all ones.
 vk::Extent2D choose_extent(const vk::SurfaceCapabilitiesKHR& surface, vk::Extent2D wanted) {
     if (surface.currentExtent.width != std::numeric_limits<std::uint32_t>::max()) {
         return surface.currentExtent;

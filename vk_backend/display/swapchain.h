@@ -1,4 +1,4 @@
-// A window's swapchain, and the frames that are drawn into its images.
+// A window's swapchain, and the frames drawn into its images.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@ namespace diptych::core {
 
 enum class SurfaceResult {
     ok,
-    suboptimal,    // shown all the same; better made anew
-    out_of_date,   // not shown: make the swapchain anew
-    surface_lost,  // not shown: make the surface anew
+    suboptimal,    // the image is shown; the swapchain should be recreated
+    out_of_date,   // the image is not shown; the swapchain has to be recreated
+    surface_lost,  // the image is not shown; the surface has to be recreated
 };
 
 class SurfaceLost : public Error {
@@ -21,42 +21,43 @@ public:
 };
 
 enum class PresentMode {
-    steady,  // waits for the display (FIFO), some drivers with the queue held, which keeps renderers waiting too
-    newest,  // never waits, never tears (mailbox), where the surface has it; else as `steady`
+    steady,  // waits for the display (FIFO); in some drivers with the queue locked, which delays renderers
+    newest,  // does not wait and does not tear (mailbox), if the surface supports it; else as `steady`
 };
 
-/// Images in R8G8B8A8 or B8G8R8A8 whose values are display values: what is drawn has been sRGB encoded already.
+/// R8G8B8A8 or B8G8R8A8 images with display values: everything drawn into them is already sRGB encoded.
 struct Swapchain {
     vk::raii::SwapchainKHR handle = nullptr;
     vk::Format format = vk::Format::eUndefined;
     vk::Extent2D extent;
     std::vector<vk::Image> images;
     std::vector<vk::raii::ImageView> views;
-    std::vector<vk::raii::Semaphore> drawn;  // one an image: presentation waits for it
+    std::vector<vk::raii::Semaphore> drawn;  // one per image: presentation waits for it
 };
 
 /// Whether the queue can present to the surface.
 bool presents_to(const Gpu& gpu, vk::SurfaceKHR surface);
 
-/// `wanted` counts where the surface leaves its size open. Nothing while the surface has no area, as a minimised
-/// window's. `old`, if any, is replaced, and must outlive the frames in flight. Throws SurfaceLost or another Error.
+/// `wanted` is used if the surface does not fix its size. Returns nothing if the surface has no area, as in a
+/// minimised window. Replaces `old`, if given, which must outlive the frames in flight. Throws SurfaceLost or another
+/// Error.
 std::optional<Swapchain> make_swapchain(const Gpu& gpu, vk::SurfaceKHR surface, vk::Extent2D wanted, PresentMode mode,
                                         const Swapchain* old = nullptr);
 
-/// One of the frames in flight.
+/// A frame in flight.
 class FrameSlot {
 public:
     explicit FrameSlot(const Gpu& gpu);
 
-    /// Waits for the slot's last frame, takes an image and begins the commands; on ok and suboptimal alone.
+    /// Waits for the slot's previous frame, acquires an image and, on `ok` and `suboptimal`, begins the commands.
     SurfaceResult begin(const Swapchain& swapchain);
     const vk::raii::CommandBuffer& commands() const { return commands_; }
-    /// The index of the image to draw into, in layout eUndefined; it must be left in ePresentSrcKHR.
+    /// Index of the image to draw into. It is in layout eUndefined, and must be in ePresentSrcKHR at the end.
     std::uint32_t image() const { return image_; }
-    /// Submits and presents. What draws into the image must do so in eColorAttachmentOutput or later stages, or in
+    /// Submits and presents. Commands that write the image must do so in eColorAttachmentOutput or later stages, or in
     /// eTransfer.
     SurfaceResult end(const Swapchain& swapchain);
-    /// Waits for the slot's last frame, if any.
+    /// Waits for the slot's previous frame, if any.
     void wait();
 
 private:

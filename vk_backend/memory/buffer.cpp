@@ -9,7 +9,7 @@ namespace {
 
 using Property = vk::MemoryPropertyFlagBits;
 
-// The wishes of each kind, best first.
+// Memory properties of each kind, the preferred ones first.
 std::initializer_list<vk::MemoryPropertyFlags> wishes(MemoryKind kind) {
     static constexpr vk::MemoryPropertyFlags visible = Property::eHostVisible | Property::eHostCoherent;
     static const std::initializer_list<vk::MemoryPropertyFlags> device = {Property::eDeviceLocal, {}};
@@ -45,7 +45,7 @@ Buffer make_buffer(const Gpu& gpu, const char* what, std::uint64_t size, vk::Buf
     if (size == 0) {
         return buffer;
     }
-    if (size > largest_heap(gpu)) {  // asked for more, some drivers promise it all the same
+    if (size > largest_heap(gpu)) {  // some drivers accept a larger allocation
         throw Error("Vulkan device " + gpu.name + ": " + what + ": " + std::to_string(size) +
                     " bytes are more than it has");
     }

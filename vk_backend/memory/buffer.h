@@ -1,4 +1,4 @@
-// Buffers and images, each with its own memory.
+// Buffers and images, each with memory of its own.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +8,29 @@
 namespace diptych::core {
 
 enum class MemoryKind {
-    device,    // the GPU's own
-    upload,    // written by the host
-    readback,  // read by the host
+    device,    // device-local
+    upload,    // written by the host, read by the device
+    readback,  // written by the device, read by the host
 };
 
 struct Buffer {
     vk::raii::DeviceMemory memory = nullptr;
     vk::raii::Buffer handle = nullptr;
     std::uint64_t size = 0;
-    vk::DeviceAddress address = 0;  // where the usage has eShaderDeviceAddress
-    void* mapped = nullptr;         // where the host can reach it
+    vk::DeviceAddress address = 0;  // valid if the usage has eShaderDeviceAddress
+    void* mapped = nullptr;         // valid if the host can access the memory
 };
 
 /// Bytes of the largest heap that has these flags.
 std::uint64_t largest_heap(const Gpu& gpu, vk::MemoryHeapFlags flags = {});
 
-/// Throws Error where memory runs out, naming `what`. A size of 0 gives a buffer without handle, at address 0.
+/// Throws Error, naming `what`, if memory runs out. A size of 0 gives a buffer without a handle, at address 0.
 Buffer make_buffer(const Gpu& gpu, const char* what, std::uint64_t size, vk::BufferUsageFlags usage, MemoryKind kind);
 
-/// Memory of the GPU's own, bound to the image. Throws vk::SystemError where it runs out.
+/// Allocates device-local memory and binds it to the image. Throws vk::SystemError if memory runs out.
 vk::raii::DeviceMemory allocate_image(const Gpu& gpu, const vk::raii::Image& image);
 
-/// The smallest multiple of `alignment` (a power of two) that is not below `value`.
+/// The smallest multiple of `alignment` (a power of two) that is at least `value`.
 constexpr std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
     return (value + alignment - 1) & ~(alignment - 1);
 }

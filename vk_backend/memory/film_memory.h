@@ -8,7 +8,7 @@
 
 namespace diptych::core {
 
-/// Row-major from the top. Buffers of layers that are left out are not allocated.
+/// Pixels in rows, top row first. Buffers of layers that are not rendered are not allocated.
 struct FilmMemory {
     int width = 0;
     int height = 0;
@@ -17,19 +17,19 @@ struct FilmMemory {
     Buffer first_hits;
 };
 
-/// A film of zeros with the layers that `features` names.
+/// Creates a film of zeros with the layers that `features` names.
 FilmMemory make_film(const Gpu& gpu, int width, int height, std::uint32_t features);
 
-/// Whether it is of that size and has the layers that `features` names, and no others.
+/// Whether the film has that size and exactly the layers that `features` names.
 bool fits(const FilmMemory& film, int width, int height, std::uint32_t features);
 
-/// Records that the film becomes zeros again.
+/// Records commands that set the film to zero.
 void record_clear(Recorder& recorder, const FilmMemory& film);
 
-/// Enters the film's addresses.
+/// Writes the film's addresses into the block.
 void enter_film(SceneAddresses& addresses, const FilmMemory& film);
 
-/// A copy on the host. Nothing may be in flight.
+/// Copies the film to the host. Nothing may be in flight.
 Film read_film(const Gpu& gpu, const FilmMemory& film);
 
 std::uint64_t film_bytes(const FilmMemory& film);

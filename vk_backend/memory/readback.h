@@ -1,4 +1,4 @@
-// Device buffers to the host.
+// Copies from device buffers to the host.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace diptych::core {
 
-/// Copies the buffer's first bytes. Nothing that writes it may be in flight.
+/// Copies the first bytes of the buffer. Nothing that writes it may be in flight.
 void read_buffer(const Gpu& gpu, const Buffer& buffer, std::span<std::byte> bytes);
 
-/// All of a buffer (with eTransferSrc in its usage) as elements; none where there is no buffer.
+/// The whole buffer as elements; its usage must have eTransferSrc. Empty if there is no buffer.
 template <typename T>
 std::vector<T> read_array(const Gpu& gpu, const Buffer& buffer) {
     std::vector<T> elements(buffer.size / sizeof(T));

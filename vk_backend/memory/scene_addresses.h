@@ -1,4 +1,4 @@
-// Where the shaders find everything: the uniform block SceneAddresses of shaders/scene_hooks.glsl.
+// Addresses of all buffers that shaders read: the uniform block SceneAddresses of shaders/scene_hooks.glsl.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace diptych::core {
 
-/// Device addresses; 0 where there is no such buffer.
+/// Device addresses; 0 if there is no such buffer.
 struct SceneAddresses {
 #define DECLARE_ADDRESS(Type, name) std::uint64_t name = 0;
     SCENE_BUFFERS(DECLARE_ADDRESS)

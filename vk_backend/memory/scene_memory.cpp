@@ -10,12 +10,12 @@
 namespace diptych::core {
 namespace {
 
-// Any of them may feed an acceleration structure build; the flag costs nothing on those that do not.
+// Every array may be an input of an acceleration structure build. The flag costs nothing for the others.
 const vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer |
                                    vk::BufferUsageFlagBits::eShaderDeviceAddress |
                                    vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR;
 
-// What a scene has most of, and no setting changes: settings only leave such an array out.
+// The largest arrays of a scene. Settings do not change their contents, but may omit an array.
 bool is_lasting(std::string_view name) {
     constexpr std::array lasting = {"positions", "triangles", "normals", "tangents", "uvs", "colors", "texels"};
     return std::find(lasting.begin(), lasting.end(), name) != lasting.end();
@@ -52,7 +52,7 @@ SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed) {
 
 void replace_scene(const Gpu& gpu, const PackedScene& packed, SceneMemory& scene) {
     Uploader uploader(gpu, std::uint64_t{8} << 20U);
-    // Where memory runs out midway, nobody knows what has come.
+    // If memory runs out midway, it is unknown which arrays are complete.
     const Revisions held = std::exchange(scene.revisions, {});
 #define REPLACE_BUFFER(Type, name)                                                                                     \
     if (scene.name.size != std::span(packed.name).size_bytes() || !holds(held.name, packed.revisions.name)) {          \

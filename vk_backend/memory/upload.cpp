@@ -30,7 +30,7 @@ void Uploader::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
 void Uploader::finish() {
     if (!copies_.empty()) {
         run_commands(gpu_, [&](Recorder& recorder) {
-            for (const Copy& copy : copies_) {  // each to a place of its own
+            for (const Copy& copy : copies_) {  // the copies do not overlap
                 recorder->copyBuffer(*staging_.handle, copy.target, copy.region);
             }
         });

@@ -1,4 +1,4 @@
-// Host arrays to device buffers, through one staging buffer.
+// Copies host arrays to device buffers through one staging buffer.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace diptych::core {
 
-/// Gathers copies until the staging buffer is full, then submits them together. finish() sends the rest.
+/// Collects copies until the staging buffer is full, then submits them together. finish() submits the rest.
 class Uploader {
 public:
     explicit Uploader(const Gpu& gpu, std::uint64_t capacity = std::uint64_t{64} << 20U);
 
-    /// Queues the bytes for `buffer`, from its start.
+    /// Queues a copy of the bytes to the start of `buffer`.
     void upload(const Buffer& buffer, std::span<const std::byte> bytes);
     void finish();
 
@@ -30,7 +30,8 @@ private:
     std::vector<Copy> copies_;
 };
 
-/// A device buffer that will hold the elements, with eTransferDst added to its usage. Nothing is allocated for none.
+/// Creates a device buffer for the elements, with eTransferDst added to its usage. For no elements nothing is
+/// allocated.
 template <typename T>
 Buffer upload_array(const Gpu& gpu, Uploader& uploader, const char* what, std::span<const T> elements,
                     vk::BufferUsageFlags usage) {

@@ -1,4 +1,4 @@
-// What every pass does before it dispatches or traces.
+// Common steps of all passes before a dispatch or a trace.
 #pragma once
 
 #include <cstdint>
@@ -11,23 +11,23 @@
 
 namespace diptych::core {
 
-/// Invocations of a compute shader in groups of WAVE_GROUP that any device takes at a time.
+/// The most invocations, in workgroups of WAVE_GROUP, that every device supports in one dispatch.
 constexpr std::uint64_t most_invocations = std::uint64_t{65535} * shared::WAVE_GROUP;
 
-/// Groups of WAVE_GROUP.
+/// Number of workgroups of WAVE_GROUP.
 std::uint32_t groups_for(std::uint64_t invocations);
 
-/// Tells a pass its slice.
+/// Writes the slice into the pass's parameters.
 void tell(shared::Dispatch& dispatch, const Slice& slice);
 
-/// Waits for what the pass depends on, and binds the pipeline, what it reads, and what it is told. `more` is what its
-/// command uses beside its shaders.
+/// Waits for the pass's dependencies, then binds the pipeline, its bindings and its parameters. `more` are uses of the
+/// command beside those of its shaders.
 void bind_pass(Recorder& recorder, const TracePipeline& pipeline, const PipelineLayout& layout,
                const Bindings& bindings, const shared::Dispatch& dispatch, std::initializer_list<Use> more = {});
 void bind_pass(Recorder& recorder, const ComputePipeline& compute, const PipelineLayout& layout,
                const Bindings& bindings, const shared::Dispatch& dispatch, std::initializer_list<Use> more = {});
 
-/// Computes over the region of the slice that `dispatch` tells of, with a shader of region.glsl.
+/// Dispatches a shader of region.glsl over the region of the slice in `dispatch`.
 void compute_region(Recorder& recorder, const ComputePipeline& compute, const PipelineLayout& layout,
                     const Bindings& bindings, const shared::Dispatch& dispatch);
 

@@ -27,10 +27,10 @@ PassUses pass(std::string_view shader, List reads, List writes, List appends = {
     return pass;
 }
 
-// Rays are recorded by a variant of the shaders alone, but that changes no barrier: appends commute.
+// Only a variant of the shaders records rays. That adds no barrier, because appends commute.
 std::vector<PassUses> make_table() {
     return {
-        // Paths in waves: shadow rays are traced beside the rays that paths go on along.
+        // Paths in waves: shadow rays are traced while the paths trace their next rays.
         pass("wave_begin.comp", {scene}, {wave_paths, wave_radiance, wave_queues}),
         pass("wave_rays.rgen", {scene, structures, wave_paths, wave_queues}, {wave_hits}, {recorded_rays}),
         pass("wave_shadows.rgen",
@@ -59,10 +59,10 @@ std::vector<PassUses> make_table() {
              {recorded_rays}),
         pass("restir_shade.comp", {scene, first_vertices, reservoirs, film},
              {film, wave_paths, wave_radiance, wave_first_hits, wave_queues, wave_shadows, wave_counts}),
-        // Paths for what they did, and rays for how long they take
+        // Records of paths, and the bench of recorded rays
         pass("record.rgen", {scene, structures, path_queries}, {path_records}, {recorded_rays}),
         pass("bare.rgen", {scene, structures, recorded_rays}, {recorded_rays}),
-        // A window's picture, whose image has barriers of its own
+        // The picture of a window; its image has barriers of its own
         pass("display.comp", {film, reservoirs}, {histogram}),
     };
 }

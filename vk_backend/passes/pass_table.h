@@ -1,5 +1,5 @@
-// What every pass reads and writes. The barriers between passes are made of it (recorder.h), and a test holds it to
-// what the shaders do, as their SPIR-V says.
+// The resources that every pass reads and writes. Barriers between passes are derived from this table (recorder.h). A
+// test compares it with the SPIR-V of the shaders.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct PassUses {
 
 std::span<const PassUses> pass_table();
 
-/// Of a shader of shaders/ that begins a pass. Throws Error where the table lacks it.
+/// The uses of a shader that begins a pass. Throws Error if the table does not list it.
 std::span<const Use> uses_of(Spirv shader);
 
 }  // namespace diptych::core

@@ -15,7 +15,7 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-constexpr std::uint64_t most_paths = std::uint64_t{1} << 21U;  // what a wave costs beside its paths is small then
+constexpr std::uint64_t most_paths = std::uint64_t{1} << 21U;  // then the fixed cost of a wave is small
 constexpr std::uint64_t fewest_paths = std::uint64_t{1} << 16U;
 static_assert(most_paths <= most_invocations);
 constexpr std::uint64_t part_of_memory = 16;
@@ -128,12 +128,12 @@ shared::WaveCounts SliceWaves::counts_left(const Gpu& gpu) const {
 }
 
 void SliceWaves::resume(Recorder& recorder, const shared::WaveCounts& left) {
-    static_assert(most_steps % 2 == 0);  // so that the queue that is read stays the same
+    static_assert(most_steps % 2 == 0);  // so that the queue to read stays the same
     assert(dispatch_.wave == most_steps);
     count_from(recorder, left);
 }
 
-// Counts of all waves of a submission, from the first's on, so that none has to be cleared between.
+// Sets the counts of all waves of a submission, starting with `first`, so that none has to be cleared in between.
 void SliceWaves::count_from(Recorder& recorder, const shared::WaveCounts& first) {
     std::array<shared::WaveCounts, most_steps + 1> counts;
     counts.fill({.rays = {0, 1, 1}, .shading = {0, 1, 1}, .shadows = {0, 1, 1}});

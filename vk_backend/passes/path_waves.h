@@ -1,4 +1,4 @@
-// Paths in waves (shaders/wave.glsl): the passes, and what they keep for every path in flight.
+// Paths in waves (shaders/wave.glsl): the passes, and their memory for every path in flight.
 #pragma once
 
 #include <cstdint>
@@ -7,59 +7,59 @@
 
 namespace diptych::core {
 
-/// Paths in flight at a time, for a film of so many pixels: one of each, within bounds and a part of the device's
-/// memory. A film of few pixels has several samples of each in flight, one of very many goes in parts.
+/// Number of paths in flight for a film of `pixels`: one per pixel, within bounds and a share of the device's memory.
+/// A small film has several samples of each pixel in flight; a very large one is rendered in parts.
 std::uint32_t path_capacity(const Gpu& gpu, std::uint64_t pixels);
 
 struct WaveMemory {
     std::uint32_t capacity = 0;  // paths
     Buffer paths;
-    Buffer first_hits;  // where a film keeps them
+    Buffer first_hits;  // allocated if the film has first-hit layers
     Buffer queues;
     Buffer hits;
-    Buffer shadows;  // where lights are sampled
+    Buffer shadows;  // allocated if lights are sampled
     Buffer counts;
 };
 
 WaveMemory make_wave_memory(const Gpu& gpu, std::uint32_t capacity, std::uint32_t features);
 
-/// Whether it has that room or more, and the buffers that `features` ask for and no others.
+/// Whether the memory has at least that capacity, and exactly the buffers that `features` needs.
 bool fits(const WaveMemory& memory, std::uint32_t capacity, std::uint32_t features);
 
 std::uint64_t wave_memory_bytes(const WaveMemory& memory);
 
 void enter_waves(SceneAddresses& addresses, const WaveMemory& memory);
 
-/// Pipelines of the passes, none of them owned.
+/// Pipelines of the passes. Not owned.
 struct WavePipelines {
     const ComputePipeline* begin = nullptr;
-    bool begin_appends = false;           // those that go on; else all do
-    const TracePipeline* rays = nullptr;  // this and what follows: null where no path goes on
+    bool begin_appends = false;           // true: appends only paths that continue; false: appends all
+    const TracePipeline* rays = nullptr;  // this and the following: null if no path continues
     const ComputePipeline* shade = nullptr;
-    const TracePipeline* shadows = nullptr;  // null where no light is sampled
-    const ComputePipeline* film = nullptr;   // which begins add to themselves otherwise
+    const TracePipeline* shadows = nullptr;  // null if no light is sampled
+    const ComputePipeline* film = nullptr;   // null: the first pass adds to the film itself
 };
 
-/// The waves of one slice, which has to have room in the memory, in one submission or, of deep paths, several.
+/// The waves of one slice, which must fit into the memory. Deep paths may need several submissions.
 class SliceWaves {
 public:
-    static constexpr std::uint32_t most_steps = 128;  // of a submission
+    static constexpr std::uint32_t most_steps = 128;  // per submission
 
-    /// `request` holds what the passes are told beside the slice: room for rays that are recorded, a pass of
-    /// resampling.
+    /// `request` holds parameters of the passes beside the slice: room for recorded rays, and a pass of resampling.
     SliceWaves(const WavePipelines& pipelines, const PipelineLayout& layout, const Bindings& bindings,
                const WaveMemory& memory, const Slice& slice, const shared::Dispatch& request = {});
 
-    /// Records: all paths begin. First of a submission.
+    /// Records the start of all paths. Must come first in a submission.
     void begin(Recorder& recorder);
-    /// Records that all paths which go on go on by one ray, while shadow rays of the step before are traced.
+    /// Records one step: each path that continues traces one ray, while the shadow rays of the previous step are
+    /// traced.
     void step(Recorder& recorder);
-    /// Records: what all paths found is added to the film.
+    /// Records adding the radiance of all paths to the film.
     void finish(Recorder& recorder);
 
-    /// What there is left to do, once what was recorded has ended.
+    /// The remaining work, after the recorded commands have ended.
     shared::WaveCounts counts_left(const Gpu& gpu) const;
-    /// Records that there is that to do. First of another submission, after most_steps in the last.
+    /// Records setting the counts to `left`. Must come first in the submission that follows one with most_steps.
     void resume(Recorder& recorder, const shared::WaveCounts& left);
 
 private:

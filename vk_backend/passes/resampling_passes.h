@@ -1,4 +1,4 @@
-// ReSTIR's passes on the device: their pipelines and what they keep for every pixel.
+// ReSTIR's passes on the device: their pipelines and their memory for every pixel.
 #pragma once
 
 #include <cstdint>
@@ -14,34 +14,34 @@ struct ResamplingMemory {
     Buffer first_vertices;
     Buffer reservoirs;
     Buffer surfaces;
-    Buffer candidate_list;  // of a slice, those that need rays, after its indirect command
+    Buffer candidate_list;  // indirect command, then the pixels of a slice that need rays
 };
 
-/// The buffers that the constants' integrator needs.
+/// Allocates the buffers that the integrator of the constants needs.
 ResamplingMemory make_resampling_memory(const Gpu& gpu, const shared::RenderConstants& constants);
 
-/// Whether these are the buffers that the constants ask for.
+/// Whether the buffers are those that the constants need.
 bool fits(const ResamplingMemory& memory, const shared::RenderConstants& constants);
 
 void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory);
 
 std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory);
 
-/// Whether reuse traces rays: its passes are compute shaders otherwise.
+/// Whether reuse traces rays. Otherwise its passes are compute shaders.
 bool reuse_traces(const shared::RenderConstants& constants);
 
-/// The shader with which a stage begins, a ray generation shader if it traces.
+/// The first shader of a stage; a ray generation shader if the stage traces rays.
 Spirv resampling_shader(ResamplingStage stage, const shared::RenderConstants& constants);
 
-/// Pipelines of the stage of candidates, none of them owned.
+/// Pipelines of the stage `candidates`. Not owned.
 struct CandidatePipelines {
     const ComputePipeline* picked = nullptr;
-    const TracePipeline* bsdf = nullptr;     // null where no material is sampled
-    const TracePipeline* shares = nullptr;   // null where reservoirs are not handed on either
-    const TracePipeline* shadows = nullptr;  // null where none is tested
+    const TracePipeline* bsdf = nullptr;     // null if no material is sampled
+    const TracePipeline* shares = nullptr;   // null if reservoirs are not reused either
+    const TracePipeline* shadows = nullptr;  // null if no candidate is tested for visibility
 };
 
-/// Records the stage of candidates for the slice that `dispatch` tells of.
+/// Records the stage `candidates` for the slice in `dispatch`.
 void record_candidates(Recorder& recorder, const CandidatePipelines& pipelines, const PipelineLayout& layout,
                        const Bindings& bindings, const ResamplingMemory& memory, const shared::Dispatch& dispatch);
 

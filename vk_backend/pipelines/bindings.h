@@ -1,4 +1,4 @@
-// The descriptor set that every pipeline reads: structure, addresses, constants.
+// The descriptor set of every pipeline: acceleration structures, addresses, constants.
 #pragma once
 
 #include "memory/buffer.h"
@@ -12,11 +12,11 @@ struct Bindings {
     Buffer addresses;
     Buffer constants;
     vk::raii::DescriptorPool pool = nullptr;
-    vk::DescriptorSet set;  // the pool's
+    vk::DescriptorSet set;  // owned by the pool
 };
 
-/// Top-level structures. Where a scene or its settings lack one of the others, the first stands in for it: in place of
-/// the moment before it means what it says, in place of the emitters it may not be traced.
+/// Top-level structures. Where one of the others is missing, the scene's structure replaces it. For the previous
+/// moment that is correct, because nothing moves. For the emitters it is a placeholder that must not be traced.
 struct Structures {
     vk::AccelerationStructureKHR scene;
     vk::AccelerationStructureKHR previous = nullptr;  // of the moment before
@@ -26,12 +26,12 @@ struct Structures {
 Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, const Structures& structures,
                        const SceneAddresses& addresses, const shared::RenderConstants& constants);
 
-/// Records that others take the place of the addresses and constants that it was made with. The command carries the
-/// bytes: a view does this in every frame, and memory for staging is dear to allocate.
+/// Records an update of the addresses and constants. The command contains the bytes: a view updates them every frame,
+/// and allocating staging memory is expensive.
 void record_values(Recorder& recorder, const Bindings& bindings, const SceneAddresses& addresses,
                    const shared::RenderConstants& constants);
 
-/// Other structures take their places. Nothing that reads the set may be in flight.
+/// Replaces the structures. Nothing that uses the set may be in flight.
 void replace_structures(const Gpu& gpu, const Bindings& bindings, const Structures& structures);
 
 }  // namespace diptych::core

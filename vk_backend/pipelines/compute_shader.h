@@ -1,4 +1,4 @@
-// A compute shader over storage buffers: asks the device what a function gives.
+// A compute shader over storage buffers, for tests that evaluate a function on the device.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@ namespace diptych::core {
 
 class ComputeShader {
 public:
-    /// Bindings 0 .. buffers-1 of set 0 are storage buffers; the push constants are two words, the count of invocations
-    /// and `chosen`; the local size is 64.
+    /// Bindings 0 .. buffers-1 of set 0 are storage buffers. The push constants are two words: the number of
+    /// invocations and `chosen`. The workgroup size is 64.
     ComputeShader(const Gpu& gpu, std::span<const std::uint32_t> spirv, std::uint32_t buffers);
 
-    /// Runs over 0 .. count-1 and waits.
+    /// Runs invocations 0 .. count-1 and waits.
     void run(std::span<const Buffer* const> buffers, std::uint32_t count, std::uint32_t chosen);
 
 private:
@@ -26,7 +26,7 @@ private:
     vk::raii::DescriptorSet set_ = nullptr;
 };
 
-/// Device memory that a shader reads and writes and the host copies to and from.
+/// A device buffer that shaders read and write, and that the host copies to and from.
 Buffer make_storage(const Gpu& gpu, std::uint64_t bytes);
 
 }  // namespace diptych::core

@@ -31,7 +31,7 @@ vk::RayTracingShaderGroupCreateInfoKHR hit_group(std::uint32_t closest_hit, std:
             .intersectionShader = VK_SHADER_UNUSED_KHR};
 }
 
-// Refers to the constants.
+// The result points to `constants`.
 vk::SpecializationInfo specialize(const PipelineConstants& constants) {
     static constexpr std::array<vk::SpecializationMapEntry, 3> entries = {{
         {.constantID = 0, .offset = offsetof(PipelineConstants, features), .size = 4},
@@ -46,8 +46,8 @@ vk::SpecializationInfo specialize(const PipelineConstants& constants) {
 
 constexpr std::uint32_t group_count = 5;  // ray generation; two miss; two hit
 
-// Each of the three regions starts at the base alignment; records within one follow each other at the handles'
-// alignment.
+// Each of the three regions starts at a multiple of the base alignment. Within a region, records are spaced by the
+// alignment of handles.
 void fill_table(const Gpu& gpu, TracePipeline& built) {
     const std::uint64_t handle = gpu.ray_tracing.shaderGroupHandleSize;
     const std::uint64_t base = gpu.ray_tracing.shaderGroupBaseAlignment;

@@ -1,4 +1,4 @@
-// Ray-tracing pipelines with their shader binding tables, and compute pipelines beside them.
+// Ray-tracing pipelines with their shader binding tables, and compute pipelines.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@ namespace diptych::core {
 
 using Spirv = std::span<const std::uint32_t>;
 
-/// What every pipeline binds: structure, addresses, constants; a Dispatch as push constants.
+/// The layout of every pipeline: structures, addresses, constants, and a Dispatch as push constants.
 struct PipelineLayout {
     vk::raii::DescriptorSetLayout set = nullptr;
     vk::raii::PipelineLayout layout = nullptr;
 };
 
-/// Stages that read the push constants.
+/// Shader stages that read the push constants.
 constexpr vk::ShaderStageFlags pushed_stages = vk::ShaderStageFlagBits::eRaygenKHR | vk::ShaderStageFlagBits::eCompute;
 
 PipelineLayout make_pipeline_layout(const Gpu& gpu);
 
-/// The shaders of a pipeline; an empty any-hit is left out.
+/// The shaders of a pipeline. An empty any-hit shader is omitted.
 struct PipelineShaders {
     Spirv ray_generation;
     Spirv closest_hit;
@@ -38,7 +38,7 @@ struct TracePipeline {
     vk::StridedDeviceAddressRegionKHR ray_generation;
     vk::StridedDeviceAddressRegionKHR miss;
     vk::StridedDeviceAddressRegionKHR hit;
-    std::span<const Use> uses;  // of its pass
+    std::span<const Use> uses;  // of the pipeline's pass
 };
 
 struct ComputePipeline {
@@ -50,18 +50,18 @@ struct ComputePipeline {
 struct PipelineConstants {
     std::uint32_t features = 0;
     std::uint32_t record_rays = 0;  // 0 or 1
-    std::uint32_t groups = 0;       // 1 where instances may be grouped
+    std::uint32_t groups = 0;       // 1 if instances may be grouped
 };
 
 TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const vk::raii::PipelineCache& cache,
                             const PipelineShaders& shaders, const PipelineConstants& constants);
 
-/// Of a shader that computes over what the pipelines bind.
+/// A pipeline for a compute shader with the layout of all pipelines.
 vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const PipelineLayout& layout,
                                          const vk::raii::PipelineCache& cache, Spirv shader,
                                          const PipelineConstants& constants);
 
-/// Traces as many rays as an indirect command in device memory says.
+/// Traces as many rays as an indirect command in device memory specifies.
 void trace_indirect(const vk::raii::CommandBuffer& commands, const TracePipeline& pipeline, vk::DeviceAddress command);
 
 /// Traces width x height rays.

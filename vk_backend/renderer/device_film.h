@@ -1,5 +1,4 @@
-// A film on the device, for whoever shows it: what it holds stays while it is being read, whatever its renderer does
-// meanwhile.
+// A film on the device, for display. Its contents stay unchanged while they are read, whatever the renderer does.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +12,24 @@
 namespace diptych::core {
 
 struct DeviceFilm {
-    std::shared_ptr<const Gpu> gpu;                      // that it lies on, and that outlives it
-    std::shared_ptr<const FilmMemory> film;              // null: nothing yet
-    std::shared_ptr<const ResamplingMemory> resampling;  // null: no reservoirs yet, or none at all
-    std::uint32_t reservoir_set = 0;                     // that the last frame left
+    std::shared_ptr<const Gpu> gpu;                      // device that owns the memory; it outlives the film
+    std::shared_ptr<const FilmMemory> film;              // null if there is no film yet
+    std::shared_ptr<const ResamplingMemory> resampling;  // null if there are no reservoirs
+    std::uint32_t reservoir_set = 0;                     // the set written by the last frame
 };
 
-/// Puts pictures that a host has made on the device. One thread at a time.
+/// Uploads pictures that were rendered on the host. For one thread at a time.
 class FilmUploader {
 public:
     explicit FilmUploader(std::shared_ptr<Gpu> gpu) : gpu_(std::move(gpu)) {}
 
-    /// Copies and waits. A film of the size and layers of the call before takes its place, in the same memory: who is
-    /// reading that reads one or the other in each pixel.
+    /// Copies the film and waits. A film with the size and layers of the previous call overwrites that one in place; a
+    /// concurrent reader sees the old or the new value of each pixel.
     DeviceFilm upload(const Film& film);
 
 private:
     std::shared_ptr<Gpu> gpu_;
-    std::unique_ptr<Uploader> uploader_;  // made at the first film
+    std::unique_ptr<Uploader> uploader_;  // created for the first film
     std::shared_ptr<FilmMemory> film_;
 };
 

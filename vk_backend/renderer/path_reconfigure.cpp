@@ -1,12 +1,12 @@
-// Other settings of the same scene: what they do not touch stays on the device.
+// Changes settings of the same scene. Data that a change does not affect stay on the device.
 
 #include "clock.h"
 #include "error.h"
 #include "renderer/path_renderer.h"
 
 namespace diptych::core {
-// From here to the last line nothing is bound: where memory runs out midway, the renderer refuses to render until it
-// has been given settings that fit.
+// Until the last line nothing is bound. If memory runs out midway, the renderer refuses to render until it gets
+// settings that fit.
 void PathRenderer::reconfigure(const PackedScene& packed) {
     const std::size_t groups = bottom_.groups.groups.size();
     if (packed.instances.size() + groups != top_.described.size() ||

@@ -1,4 +1,4 @@
-// Paths traced on the device for what they did, not for the film.
+// Traces paths on the device for their records, not for the film.
 #include <algorithm>
 
 #include "error.h"
@@ -75,7 +75,8 @@ std::vector<RecordedPath> PathRenderer::record_paths(Queries queries, std::optio
     shared::RenderConstants constants = constants_;
     constants.seed = seed.value_or(constants.seed);
     return in_context("recording paths", [&] {
-        // A path has one vertex more than it scatters; few come near the limit, so their lengths are asked for first.
+        // A path has one vertex more than scattering events. Few paths come near the limit, so their lengths are
+        // computed first.
         const std::vector<shared::PathSummary> lengths = summarize(queries, constants);
         std::vector<RecordedPath> paths(queries.size());
         for (std::size_t first = 0; first < queries.size();) {

@@ -90,7 +90,7 @@ void PathRenderer::count_bytes() {
         scene_bytes(scene_) + costs_.acceleration_bytes + films_.size() * film_bytes(*film_) + costs_.pass_bytes;
 }
 
-// Resampled light of the first vertex alone needs none.
+// Waves are not needed if only the first vertex's resampled light is rendered.
 bool PathRenderer::goes_in_waves() const {
     return !resamples() || (features_ & shared::FEATURE_LATER_VERTICES) != 0;
 }
@@ -105,8 +105,8 @@ void PathRenderer::replace_waves() {
     }
 }
 
-// An empty film that nobody looks at: what is shown stays whole while the next picture begins. There are as many of
-// them as are looked at at a time, and one more.
+// Takes an empty film that is not displayed, so that a displayed picture stays complete while the next one begins.
+// There is one film more than are displayed at the same time.
 void PathRenderer::begin_film() {
     const auto size = glm::ivec2(constants_.size);
     std::erase_if(films_, [&](const auto& film) { return !fits(*film, size.x, size.y, features_); });
@@ -169,7 +169,7 @@ const ComputePipeline& PathRenderer::compute_pipeline(Spirv shader) {
     }
     const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
     const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
-    // Groups are the hit shaders' affair, so the key goes without.
+    // Only hit shaders use groups, so the key of a compute pipeline omits them.
     ComputePipeline made{.pipeline = make_compute_pipeline(*gpu_, layout_, cache, shader, pipeline_constants(false)),
                          .uses = uses_of(shader)};
     save_pipeline_cache(cache, cache_path);
@@ -233,15 +233,15 @@ void PathRenderer::require_bound() const {
     }
 }
 
-// Some drivers compile at the first dispatch. This path is added to no film, and keeps that time out of the measured
-// ones.
+// Some drivers compile at the first dispatch. The path traced here is not added to a film; it keeps compile time out
+// of the measurements.
 void PathRenderer::warm_up() const {
     run_commands(*gpu_, [&](Recorder& recorder) {
         SliceWaves path(wave_pipelines_, layout_, bindings_, waves_, {{0, 0, 1, 1}, 0, 1});
         SliceWaves nothing(wave_pipelines_, layout_, bindings_, waves_, {{0, 0, 1, 1}, 0, 0});
         path.begin(recorder);
         path.step(recorder);
-        path.step(recorder);  // the first that may trace a shadow ray
+        path.step(recorder);  // the first step that may trace a shadow ray
         nothing.finish(recorder);
     });
 }
@@ -306,7 +306,7 @@ void PathRenderer::render_paths(std::uint32_t first, std::uint32_t count, const 
     }
 }
 
-// Waves take time whatever they hold, so no slice is cut as short as one likes.
+// A wave has a fixed cost, so a slice has a minimum size.
 Slice PathRenderer::next_slice(SliceCursor& cursor, const SpeedEstimate& speed) const {
     const std::uint64_t budget =
         changes_.slice_budget > 0 ? changes_.slice_budget : std::max(speed.budget(), least_slice);
@@ -314,9 +314,9 @@ Slice PathRenderer::next_slice(SliceCursor& cursor, const SpeedEstimate& speed) 
                        gpu_->ray_tracing.maxRayDispatchInvocationCount);
 }
 
-// As many waves as the deepest path may take: rays that end at its last vertex find light there, and ask for none. A
-// resampled path has its first vertex behind it. Of very many waves, those that come after all paths have ended are
-// left out.
+// Runs as many waves as the deepest path may need. At the last vertex emission is added, but no light is sampled. A
+// resampled path starts after its first vertex. If there are very many waves, those after the end of all paths are
+// skipped.
 void PathRenderer::submit_slice(TimedQueue& queue, const WavePipelines& pipelines, const Bindings& bindings,
                                 const Slice& slice, const shared::Dispatch& request, std::size_t label) const {
     SliceWaves waves(pipelines, layout_, bindings, waves_, slice, request);
@@ -337,7 +337,7 @@ void PathRenderer::submit_slice(TimedQueue& queue, const WavePipelines& pipeline
     while (steps > 0) {
         queue.drain();
         const shared::WaveCounts left = waves.counts_left(*gpu_);
-        steps = left.rays.x > 0 ? steps : 1;  // for shadow rays that may be left
+        steps = left.rays.x > 0 ? steps : 1;  // for shadow rays that may remain
         submit(0, [&](Recorder& recorder) { waves.resume(recorder, left); });
     }
 }

@@ -1,4 +1,4 @@
-// The Renderer over one device; made by make_vulkan_renderer, and directly by tests.
+// The Renderer of one device. make_vulkan_renderer creates it; tests create it directly.
 #pragma once
 
 #include <map>
@@ -24,13 +24,13 @@
 
 namespace diptych::core {
 
-/// Whether instances that stand still are gathered (instance_groups.h): on a GPU, where that pays (decision 0010), or
+/// Whether static instances are grouped (instance_groups.h): on GPUs, where grouping reduces time (decision 0010), or
 /// for a test anywhere.
 enum class Grouping { nowhere, on_gpus, anywhere };
 
-/// What tests change.
+/// Settings that tests change.
 struct PathRendererOptions {
-    std::uint64_t slice_budget = 0;  // pixel samples a dispatch, whatever the measured speed
+    std::uint64_t slice_budget = 0;  // pixel samples per dispatch, independent of the measured speed
     Grouping grouping = Grouping::on_gpus;
 };
 
@@ -59,12 +59,12 @@ public:
 
     const BottomLevels& bottom_levels() const { return bottom_; }
 
-    /// What there is to be seen, for a display pass on the same device; what is added to this picture later shows in it
-    /// too. It stays as it is while the next picture begins.
+    /// The current picture, for a display pass on the same device. Samples that are added to this picture later appear
+    /// in it too. It stays unchanged when the next picture begins.
     DeviceFilm device_film() const;
-    /// Seconds of device time a dispatch may take from now on: whoever shares the queue waits for two of them at most.
+    /// Sets the target device time of a dispatch. A user of the same queue waits for at most two dispatches.
     void aim_dispatches(double seconds);
-    /// Since the renderer was made.
+    /// Number of pipelines compiled since the renderer was created.
     std::size_t pipelines_compiled() const { return pipelines_.size() + compute_pipelines_.size(); }
 
 private:
@@ -107,36 +107,36 @@ private:
     SceneMemory scene_;
     BottomLevels bottom_;
     TopLevel top_;
-    TopLevel previous_top_;  // of the moment before, where PackedScene::keeps_previous
+    TopLevel previous_top_;  // of the previous moment, if PackedScene::keeps_previous
     EmitterStructure emitters_;
-    std::unique_ptr<Uploader> mover_;  // made at the first move
+    std::unique_ptr<Uploader> mover_;  // created for the first move
     std::vector<std::shared_ptr<FilmMemory>>
-        films_;  // of the present size and layers; one is film_, the others may be looked at
+        films_;  // of the current size and layers; one is film_, others may be displayed
     std::shared_ptr<FilmMemory> film_;
     PipelineLayout layout_;
     std::map<std::tuple<const std::uint32_t*, std::uint32_t, bool>, TracePipeline>
-        pipelines_;  // by ray generation shader, features, groups
+        pipelines_;  // by ray generation shader, features and groups
     std::map<std::tuple<const std::uint32_t*, std::uint32_t>, ComputePipeline>
-        compute_pipelines_;  // by shader, features
+        compute_pipelines_;  // by shader and features
     WavePipelines wave_pipelines_;
     WaveMemory waves_;
     std::shared_ptr<ResamplingMemory> resampling_;
-    std::map<ResamplingStage, const TracePipeline*> traced_;      // stages that are one pass, with rays
-    std::map<ResamplingStage, const ComputePipeline*> computed_;  // or without
+    std::map<ResamplingStage, const TracePipeline*> traced_;      // stages that are one pass and trace rays
+    std::map<ResamplingStage, const ComputePipeline*> computed_;  // stages that are one pass and trace no rays
     CandidatePipelines candidates_;
     ResamplingSchedule schedule_;
     ReservoirHook hook_;
-    std::optional<std::uint32_t> reservoir_set_;  // that the last frame left
+    std::optional<std::uint32_t> reservoir_set_;  // written by the last frame
     Bindings bindings_;
     double dispatch_seconds_ = 0.06;
     SpeedEstimate speed_{dispatch_seconds_};
-    std::unique_ptr<CommandRing> upkeep_;  // what is to happen between pictures
+    std::unique_ptr<CommandRing> upkeep_;  // commands between pictures
     std::unique_ptr<TimedQueue> queue_;
     RendererCosts costs_;
-    std::optional<SpeedEstimate> recording_speed_;  // of record.rgen, once it has been asked for
+    std::optional<SpeedEstimate> recording_speed_;  // of record.rgen, once it has been used
 };
 
-/// Shaders of shaders/ under a ray generation shader; any-hit shaders only where `alpha`.
+/// The shaders of a pipeline with this ray generation shader; with any-hit shaders only if `alpha`.
 PipelineShaders scene_shaders(Spirv ray_generation, bool alpha);
 
 /// Records the commands of one dispatch.

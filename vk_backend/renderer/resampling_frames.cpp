@@ -6,8 +6,8 @@
 
 namespace diptych::core {
 
-// Passes of a fast device go together in one submission, up to the budget; a pass of a slow one is cut into several. A
-// frame that has begun is finished, or its reservoirs would be of two frames. Waves are submitted by themselves.
+// On a fast device one submission holds several passes, up to the budget; on a slow device a pass is split. A frame
+// that has begun is finished, because otherwise its reservoirs would mix two frames. Waves are submitted separately.
 void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
     std::vector<TimedPart> parts;
     std::uint64_t work = 0;

@@ -9,7 +9,7 @@
 namespace diptych::core {
 namespace {
 
-constexpr int repeats = 7;  // the median of which counts
+constexpr int repeats = 7;  // the result is their median
 constexpr std::uint64_t most_ray_bytes = std::uint64_t{4} << 30U;
 
 using Usage = vk::BufferUsageFlagBits;
@@ -19,13 +19,13 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-// Which paths are measured: the whole film, or as many rows about its middle as there is room for their rays.
+// The paths that are measured: the whole film, or as many rows about its middle as have room for their rays.
 struct Block {
     Region region;
     std::uint32_t samples = 0;
 };
 
-// The bench's own buffers.
+// Buffers of the bench.
 struct RayMemory {
     std::uint32_t capacity = 0;
     Buffer rays;
@@ -52,15 +52,15 @@ std::uint64_t count_rays(const Gpu& gpu, const RayMemory& memory) {
     return std::uint64_t{counters.closest} + counters.any;
 }
 
-// Rays traced again, cut into dispatches.
+// Traces recorded rays again, in several dispatches.
 struct Tracer {
     const Gpu& gpu;
     const PipelineLayout& layout;
     const TracePipeline& pipeline;
     const Bindings& bindings;
-    SpeedEstimate speed{};  // which lasts, so that only the first run is cut small
+    SpeedEstimate speed{};  // kept between runs, so that only the first run has small dispatches
 
-    /// In the device's seconds.
+    /// Returns device time, seconds.
     double trace(std::uint64_t rays) {
         TimedQueue queue(gpu, [&](std::uint64_t work, double seconds) { speed.learn(work, seconds); });
         for (std::uint64_t ray = 0; ray < rays;) {
@@ -96,7 +96,7 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
             all.ray_counters = memory.counters.address;
             return make_bindings(*gpu_, layout_, {.scene = *top_.structure}, all, constants_);
         };
-        SpeedEstimate speed(dispatch_seconds_);  // of this integrator, for all runs
+        SpeedEstimate speed(dispatch_seconds_);  // of this integrator, shared by all runs
         const auto integrate = [&](const WavePipelines& pipelines, const Bindings& bindings, const Block& block,
                                    std::uint32_t ray_capacity) {
             TimedQueue queue(*gpu_, [&](std::uint64_t work, double seconds) { speed.learn(work, seconds); });
@@ -109,7 +109,7 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
             queue.drain();
             return queue.seconds();
         };
-        // Recorded without room, a block tells how many rays it has.
+        // Without room for rays, a recording only counts them.
         const auto rays_of = [&](const Block& block) {
             const RayMemory memory = make_ray_memory(*gpu_, 0);
             const Bindings bindings = bind(memory);

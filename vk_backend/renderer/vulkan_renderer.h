@@ -1,4 +1,4 @@
-// The right panel: rendering on a Vulkan device with ray-tracing pipelines.
+// The Vulkan panel: renders on a Vulkan device with ray-tracing pipelines.
 #pragma once
 
 #include <memory>
@@ -17,18 +17,18 @@ struct Gpu;
 struct VulkanOptions {
     std::string device;           // "" the best, else an index or a part of the name
     bool validation = false;      // core and synchronisation validation; DIPTYCH_VALIDATION=1 asks for it too
-    bool group_instances = true;  // see instance_groups.h; the picture is the same
+    bool group_instances = true;  // see instance_groups.h; does not change the picture
 };
 
 /// Opens the device that the options name. Throws NoDevice or Error.
 std::shared_ptr<Gpu> open_device(const VulkanOptions& options);
 
-/// Uploads the scene, builds its acceleration structures and compiles its pipeline; `packed` is not needed afterwards.
-/// Throws NoDevice where no device serves, saying what is missing; Error where one fails.
+/// Uploads the scene, builds its acceleration structures and compiles its pipeline. `packed` is not used afterwards.
+/// Throws NoDevice, which says what is missing, if no device is usable; Error if a device fails.
 std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options);
 
-/// The same on a device that is open already, and that others may use at the same time, from their own threads. Of the
-/// options only group_instances is asked.
+/// The same on an open device, which other threads may use at the same time. Of the options only group_instances is
+/// used.
 std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed,
                                                const VulkanOptions& options = {});
 

@@ -1,4 +1,4 @@
-// The scene's acceleration structures: one a mesh or a group of instances, compacted, and one over the instances.
+// The scene's acceleration structures: one for each mesh or group of instances, compacted, and one over all instances.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@
 
 namespace diptych::core {
 
-/// Of a command that builds structures: an upper level reads lower ones.
+/// The uses of a build command. A top-level build reads bottom levels.
 inline constexpr std::array uses_of_build = {
     Use{Resource::scene, Unit::build, Effect::read}, Use{Resource::structures, Unit::build, Effect::read},
     Use{Resource::structures, Unit::build, Effect::write}, Use{Resource::build_scratch, Unit::build, Effect::write}};
 
-/// Structures, many to a buffer: those of PackedScene::meshes in order, then the groups'. A mesh without triangles has
-/// address 0, and so has one whose instances are all grouped.
+/// Bottom levels, many to a buffer: those of PackedScene::meshes in order, then those of the groups. The address is 0
+/// for a mesh without triangles and for a mesh whose instances are all grouped.
 struct BottomLevels {
     std::vector<Buffer> storage;
     std::vector<vk::raii::AccelerationStructureKHR> structures;
@@ -31,22 +31,22 @@ struct BottomLevels {
     std::uint64_t built_bytes = 0;  // before compaction
     InstanceGroups groups;
     Buffer grouped_geometries;               // InstanceGroups::geometries, for the shaders
-    std::vector<shared::Instance> standing;  // the packed instances as they were built, where there are groups
+    std::vector<shared::Instance> standing;  // the packed instances at the time of the build, if there are groups
 };
 
-/// Over the packed instances, of which those that are grouped are inactive, and the groups after them. What builds it
-/// stays once it has been built a second time.
+/// The structure over the packed instances, followed by the groups. Grouped instances are inactive. After the second
+/// build, the buffers of a build are kept.
 struct TopLevel {
     Buffer storage;
     vk::raii::AccelerationStructureKHR structure = nullptr;
     std::uint64_t scratch_bytes = 0;
     Buffer scratch;
     Buffer instances;
-    std::vector<vk::AccelerationStructureInstanceKHR> described;  // as it was built
-    std::uint64_t revision = 0;                                   // of the instances that it describes
+    std::vector<vk::AccelerationStructureInstanceKHR> described;  // at the last build
+    std::uint64_t revision = 0;                                   // of the instances at the last build
 };
 
-/// How much memory one batch of builds may take; a mesh that needs more is a batch of its own.
+/// Limits of the memory of one batch of builds. A mesh that needs more is a batch of its own.
 struct BuildLimits {
     std::uint64_t structure_bytes = std::uint64_t{256} << 20U;
     std::uint64_t scratch_bytes = std::uint64_t{128} << 20U;
@@ -56,19 +56,19 @@ struct BuildLimits {
 BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene,
                                  const InstanceGroups& groups, const BuildLimits& limits = {});
 
-/// The first grouped instance that is not where it was when its group was built; after packing about another origin
-/// that is any of them.
+/// The first grouped instance that has moved since its group was built. After packing about another origin, all of
+/// them have moved.
 std::optional<std::size_t> first_moved(const PackedScene& packed, const BottomLevels& bottom);
 
-/// Where an instance stands, as builds take it, for vertices divided by `unit`.
+/// The matrix of an instance for a build, for vertices divided by `unit`.
 vk::TransformMatrixKHR transform_of(const shared::Instance& instance, float unit = 1);
 
 TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const BottomLevels& bottom);
 
-/// Builds it anew, in its own memory, where any instance stands elsewhere. Not refitted: a refitted structure's quality
-/// depends on all moments before, a built one's on none, and a frame repeated alone must cost and hit what it did in
-/// its sequence. Throws Error where the number of instances is another, or one of a group has moved. Nothing that reads
-/// it may be in flight.
+/// Rebuilds the structure in place if any instance has moved. It is not refitted: the quality of a refitted structure
+/// depends on all earlier moments, but a frame rendered alone must cost and hit the same as in its sequence. Throws
+/// Error if the number of instances differs or a grouped instance has moved. Nothing that reads the structure may be
+/// in flight.
 void move_top_level(const Gpu& gpu, const PackedScene& moment, const BottomLevels& bottom, TopLevel& top);
 
 }  // namespace diptych::core

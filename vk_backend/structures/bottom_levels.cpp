@@ -40,7 +40,7 @@ vk::AccelerationStructureGeometryKHR describe_geometry(const PackedScene& packed
     return described;
 }
 
-/// Adds a mesh's geometries, their vertices transformed by the matrix at the address `transform`.
+/// Adds the geometries of a mesh. Vertices are transformed by the matrix at the device address `transform`.
 void add_mesh(const PackedScene& packed, const SceneMemory& scene, std::size_t mesh, vk::DeviceAddress transform,
               StructureBuild& build) {
     const MeshRange& range = packed.meshes[mesh];
@@ -71,7 +71,7 @@ void size_build(const Gpu& gpu, StructureBuild& build) {
     }
 }
 
-/// Meshes that no instance needs by itself: all of theirs are grouped.
+/// Meshes that need no structure of their own, because all their instances are grouped.
 std::vector<bool> meshes_grouped_away(const PackedScene& packed, const InstanceGroups& groups) {
     std::vector<bool> away(packed.meshes.size(), false);
     for (const bool grouped : {true, false}) {
@@ -84,7 +84,7 @@ std::vector<bool> meshes_grouped_away(const PackedScene& packed, const InstanceG
     return away;
 }
 
-/// Divides by a mesh's unit.
+/// The matrix that divides by a mesh's unit.
 vk::TransformMatrixKHR into_unit(float unit) {
     vk::TransformMatrixKHR transform;
     for (int row = 0; row < 3; ++row) {
@@ -94,8 +94,8 @@ vk::TransformMatrixKHR into_unit(float unit) {
     return transform;
 }
 
-/// What vertices are transformed by when they are built: one matrix a mesh, into its unit, then those of all grouped
-/// instances in the order of the groups.
+/// The matrices that builds apply to vertices: one for each mesh, into its unit, then those of all grouped instances
+/// in the order of the groups.
 Buffer upload_transforms(const Gpu& gpu, const PackedScene& packed, const InstanceGroups& groups,
                          const std::vector<float>& units) {
     std::vector<vk::TransformMatrixKHR> transforms;
@@ -126,7 +126,7 @@ vk::raii::AccelerationStructureKHR place_structure(const Gpu& gpu, const Buffer&
                                                       .type = vk::AccelerationStructureTypeKHR::eBottomLevel});
 }
 
-// Builds of one batch, in a buffer that lives until they have been compacted.
+// The builds of one batch, in a buffer that is freed after compaction.
 struct Batch {
     Buffer storage;
     std::vector<vk::raii::AccelerationStructureKHR> structures;
@@ -194,7 +194,7 @@ void compact_batch(const Gpu& gpu, const Batch& batch, const std::vector<std::si
         offset += bytes;
     }
     run_commands(gpu, [&](Recorder& recorder) {
-        for (std::size_t i = 0; i < indices.size(); ++i) {  // each to a place of its own
+        for (std::size_t i = 0; i < indices.size(); ++i) {  // the copies do not overlap
             recorder->copyAccelerationStructureKHR({.src = *batch.structures[i],
                                                     .dst = *levels.structures[indices[i]],
                                                     .mode = vk::CopyAccelerationStructureModeKHR::eCompact});

@@ -38,7 +38,7 @@ vk::AccelerationStructureGeometryKHR describe_instances(vk::DeviceAddress instan
 }
 
 vk::AccelerationStructureInstanceKHR describe_instance(vk::DeviceAddress bottom) {
-    vk::AccelerationStructureInstanceKHR instance{};  // its bit fields have no initialisers of their own
+    vk::AccelerationStructureInstanceKHR instance{};  // bit fields have no default initialisers
     for (int i = 0; i < 3; ++i) {
         instance.transform.matrix[i][i] = 1;
     }
@@ -48,7 +48,7 @@ vk::AccelerationStructureInstanceKHR describe_instance(vk::DeviceAddress bottom)
     return instance;
 }
 
-/// One level: what it is built from, and what that takes. Its info refers to its geometry, so it stays where it is.
+/// One level: the input and the sizes of its build. `info` points to `geometry`, so a Level must not move.
 struct Level {
     vk::AccelerationStructureGeometryKHR geometry;
     vk::AccelerationStructureBuildGeometryInfoKHR info;
@@ -75,7 +75,7 @@ vk::raii::AccelerationStructureKHR make_structure(const Gpu& gpu, Type type, con
     return gpu.device.createAccelerationStructureKHR({.buffer = *storage.handle, .size = bytes, .type = type});
 }
 
-/// Both levels; their memory is made where there is none.
+/// Builds both levels. Memory is allocated if there is none.
 void build(const Gpu& gpu, std::vector<shared::vec3> from, EmitterStructure& emitters) {
     const Usage input = Usage::eAccelerationStructureBuildInputReadOnlyKHR;
     const auto count = static_cast<std::uint32_t>(from.size() / 3);
@@ -104,7 +104,7 @@ void build(const Gpu& gpu, std::vector<shared::vec3> from, EmitterStructure& emi
         make_buffer(gpu, "building the emitters' acceleration structure", scratch_bytes + gpu.scratch_alignment,
                     Usage::eStorageBuffer | Usage::eShaderDeviceAddress, MemoryKind::device);
     run_commands(gpu, [&](Recorder& recorder) {
-        for (Level* level : {&bottom, &top}) {  // the upper one reads the lower one
+        for (Level* level : {&bottom, &top}) {  // the top level reads the bottom level
             level->info.scratchData.deviceAddress = align_up(scratch.address, gpu.scratch_alignment);
             recorder.use(uses_of_build);
             recorder->buildAccelerationStructuresKHR(level->info, &level->range);

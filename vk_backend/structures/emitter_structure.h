@@ -1,5 +1,5 @@
-// The acceleration structure that holds the emitters alone, in world space: one bottom level under a top level of one
-// instance. Primitives count as lights do.
+// The acceleration structure of the emitters alone, in world space: one bottom level under a top level with one
+// instance. The index of a primitive is its light id.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ struct EmitterStructure {
     Buffer top_storage;
     vk::raii::AccelerationStructureKHR bottom = nullptr;
     vk::raii::AccelerationStructureKHR top = nullptr;
-    std::vector<shared::vec3> corners;  // as it was built
-    std::uint64_t revision = 0;         // of the emissive triangles that it describes
+    std::vector<shared::vec3> corners;  // at the last build
+    std::uint64_t revision = 0;         // of the emissive triangles at the last build
 };
 
-/// Nothing where the settings do not search emitters.
+/// Empty if the settings do not search emitters.
 EmitterStructure build_emitters(const Gpu& gpu, const PackedScene& packed);
 
-/// For another moment or other settings of the same scene; built anew, in its own memory, only where an emitter moved,
-/// went on or off. Nothing that reads it may be in flight.
+/// Updates the structure for another moment or other settings of the same scene. It is rebuilt in place only if an
+/// emitter moved or was switched on or off. Nothing that reads it may be in flight.
 void move_emitters(const Gpu& gpu, const PackedScene& packed, EmitterStructure& emitters);
 
 inline std::uint64_t emitter_bytes(const EmitterStructure& emitters) {

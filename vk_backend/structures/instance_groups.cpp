@@ -6,13 +6,13 @@
 namespace diptych::core {
 namespace {
 
-// The table's index and a one for "there is none" share the 24 bits of an instance's custom index.
+// The custom index of an instance has 24 bits. It holds an index into the table plus one; 0 means "none".
 constexpr std::size_t most_entries = (std::size_t{1} << 24U) - 1;
 
 struct MeshUse {
     std::uint64_t triangles = 0;
-    std::uint64_t standing = 0;  // instances that may be grouped
-    bool alone = false;          // others may not, so that the mesh keeps a bottom level of its own
+    std::uint64_t standing = 0;  // number of instances that may be grouped
+    bool alone = false;          // some instances may not be grouped, so the mesh keeps its bottom level
 };
 
 bool stands(const PackedScene& packed, std::size_t instance) {
@@ -35,7 +35,7 @@ std::vector<MeshUse> count_uses(const PackedScene& packed) {
     return uses;
 }
 
-/// Which meshes are built anew wherever they stand: those whose copies cost least.
+/// The meshes whose instances are grouped: those whose copies cost least.
 std::vector<bool> choose_meshes(const std::vector<MeshUse>& uses, const GroupLimits& limits) {
     const std::uint64_t all =
         std::accumulate(uses.begin(), uses.end(), std::uint64_t{0},
@@ -66,7 +66,7 @@ InstanceGroups group_instances(const PackedScene& packed, const GroupLimits& lim
     const std::vector<MeshUse> uses = count_uses(packed);
     const std::vector<bool> chosen = choose_meshes(uses, limits);
     std::vector<InstanceGroup> groups;
-    std::uint64_t triangles = limits.triangles;  // the next instance begins a group
+    std::uint64_t triangles = limits.triangles;  // so that the next instance begins a group
     for (std::uint32_t i = 0; i < packed.instances.size(); ++i) {
         const std::uint32_t mesh = packed.instance_meshes[i];
         if (!chosen[mesh] || !stands(packed, i)) {

@@ -8,15 +8,16 @@
 namespace diptych::core {
 namespace {
 
-// For instances, and cameras, that move after the structures were built.
+// Margin for instances and cameras that move after the build.
 constexpr double room = 0x1p12;
 
-// A mesh is at least so wide in its unit. Drivers multiply edges: products of edges of 2^-63 vanish in fp32, and with
-// them the triangle.
+// The smallest width of a mesh in its unit. Drivers multiply edges: products of edges of 2^-63 vanish in fp32, and so
+// does the triangle.
 constexpr double least_width = 0x1p-40;
 
-// No longer is a matrix's part A in the unit chosen: a ray's direction gets as short in the mesh's space as A is long.
-// Below 2^-40 an H200's driver meets nothing, and further down all of the mesh's box.
+// The largest norm of A in the chosen unit. In the mesh's space a ray's direction is shorter by the norm of A. With
+// directions below 2^-40 the driver of an H200 misses triangles, and with still shorter ones everything in the mesh's
+// box.
 constexpr double longest = 0x1p34;
 
 double norm(const glm::dmat3& m) {
@@ -31,8 +32,8 @@ double distance(const shared::Instance& i) {
     return glm::length(glm::dvec3(i.row_0.w, i.row_1.w, i.row_2.w));
 }
 
-/// The factor by which A has to grow so that no entry of t becomes a pivot, |t| being `reach`. Elimination multiplies t
-/// by no more than A's condition number, and what it leaves of A is no smaller than 1 / |A^-1|.
+/// The factor by which A has to grow so that no entry of t becomes a pivot, for |t| = `reach`. Elimination multiplies
+/// t by at most the condition number of A, and the remainder of A is at least 1 / |A^-1|.
 double needed_factor(const glm::dmat3& a, double reach) {
     const double inverse = norm(glm::inverse(a));
     return (reach + norm(a)) * norm(a) * inverse * inverse;
@@ -58,7 +59,7 @@ std::vector<double> mesh_widths(const PackedScene& packed) {
 }  // namespace
 
 std::vector<float> mesh_units(const PackedScene& packed, const InstanceGroups& groups) {
-    std::vector<double> wanted(packed.meshes.size(), 0);  // doublings
+    std::vector<double> wanted(packed.meshes.size(), 0);  // as exponents of two
     std::vector<double> most;
     for (const double width : mesh_widths(packed)) {
         most.push_back(std::floor(std::log2(width / least_width)));
@@ -74,7 +75,7 @@ std::vector<float> mesh_units(const PackedScene& packed, const InstanceGroups& g
         const std::uint32_t mesh = packed.instance_meshes[i];
         const glm::dmat3 a = linear_part(packed.instances[i]);
         const double needed = std::ceil(std::log2(room * needed_factor(a, reach)));
-        if (std::isfinite(needed)) {  // a singular matrix has no inverse to be rounded
+        if (std::isfinite(needed)) {  // a singular matrix has no inverse
             wanted[mesh] = std::max(wanted[mesh], needed);
             most[mesh] = std::min(most[mesh], MUTANT(DIRECTIONS_VANISH, std::floor(std::log2(longest / norm(a))), 1000.0));
         }
@@ -82,7 +83,7 @@ std::vector<float> mesh_units(const PackedScene& packed, const InstanceGroups& g
     std::vector<float> units(packed.meshes.size(), 1.0F);
     for (std::size_t mesh = 0; mesh < units.size(); ++mesh) {
         const double doublings = std::min(wanted[mesh], most[mesh]);
-        if (std::isfinite(doublings)) {  // of an empty mesh it is not
+        if (std::isfinite(doublings)) {  // infinite for an empty mesh
             units[mesh] = MUTANT(MESHES_IN_OWN_UNITS, std::ldexp(1.0F, static_cast<int>(doublings)), 1.0F);
         }
     }

@@ -15,7 +15,7 @@ using Usage = vk::BufferUsageFlagBits;
 vk::AccelerationStructureInstanceKHR describe_instance(const shared::Instance& placed, float unit, bool shown,
                                                        [[maybe_unused]] std::size_t index,
                                                        vk::DeviceAddress structure) {
-    vk::AccelerationStructureInstanceKHR target{};  // its bit fields have no initialisers of their own
+    vk::AccelerationStructureInstanceKHR target{};  // bit fields have no default initialisers
     target.transform = transform_of(placed, unit);
     target.mask = MUTANT(CULL_MASK, shown, index < 8) ? 0xff : 0;
     using Flags = vk::GeometryInstanceFlagBitsKHR;
@@ -47,7 +47,7 @@ std::vector<vk::AccelerationStructureInstanceKHR> describe_instances(const Packe
     return described;
 }
 
-/// Throws Error unless the moment is one of the scene that was built.
+/// Throws Error unless the moment belongs to the scene that was built.
 void check_moment(const Gpu& gpu, const PackedScene& moment, const BottomLevels& bottom, const TopLevel& top) {
     const std::size_t before = top.described.size() - bottom.groups.groups.size();
     if (moment.instances.size() != before) {
@@ -79,7 +79,7 @@ TopLevelBuild describe_build(vk::DeviceAddress instances) {
 
 Buffer upload_instances(const Gpu& gpu, const std::vector<vk::AccelerationStructureInstanceKHR>& described) {
     Uploader uploader(gpu, std::uint64_t{8} << 20U);
-    // Instances lie at multiples of 16 bytes; with none, the address still has to be one.
+    // Instances are aligned to 16 bytes. The address must be valid even if there are no instances.
     const std::vector<vk::AccelerationStructureInstanceKHR> unused(1);
     Buffer instances = upload_array(gpu, uploader, "instances of acceleration structures",
                                     std::span(described.empty() ? unused : described),
