@@ -6,7 +6,8 @@
 
 namespace diptych::core {
 
-/// Bad usage or bad input. `what()` is one line that names the file, the object in it and the reason.
+/// Bad usage or bad input. `what()` is one line that names the file, the object in it and the reason. A setting has its
+/// name in the library between backticks, "`look_at`", and not its option: each front end may write its own word for it.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -7,13 +7,14 @@
 #include <set>
 
 #include "build_info.h"
+#include "console/option_names.h"
 
 namespace diptych::core::app {
 
 namespace {
 
 void print_error_line(const std::string& line) {
-    fmt::print(stderr, "diptych: {}\n", one_line(line));
+    fmt::print(stderr, "diptych: {}\n", one_line(with_option_names(line)));
     std::fflush(stderr);
 }
 

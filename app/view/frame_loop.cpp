@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "render/metadata.h"
+#include "console/option_names.h"
+#include "console/repeat_command.h"
 #include "settings/names.h"
 #include "scene/orbit.h"
 #include "pose/pose.h"
@@ -210,7 +211,7 @@ std::string FrameLoop::repeat_command(Panel panel, const std::string& output) co
     const std::uint32_t offset = has(panel) ? worker(panel)->seed_offset() : 0;
     request.settings = panel_settings(request.settings, offset, 1);
     const std::shared_ptr<const PanelShot> seen = shot(panel);
-    return core::repeat_command(request, seen && seen->divisor == 1 ? std::max(seen->spp, 1U) : 1);
+    return app::repeat_command(request, seen && seen->divisor == 1 ? std::max(seen->spp, 1U) : 1);
 }
 
 template <class Work>
@@ -218,7 +219,7 @@ void FrameLoop::guarded(const Work& work) {
     try {
         work();
     } catch (const Error& error) {
-        errors_.push_back(error.what());
+        errors_.push_back(with_option_names(error.what()));
     }
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "error.h"
+#include "console/option_names.h"
 #include "console/report.h"
 #include "gltf/files.h"
 #include "image/picture_name.h"
@@ -142,7 +143,7 @@ void SceneLoader::run() {
             loaded = load_scene(request, generation);
             loaded->reloaded = reload;
         } catch (const std::exception& failure) {
-            error = one_line(failure.what());
+            error = one_line(with_option_names(failure.what()));
         }
         lock.lock();
         if (!wanted_) {

@@ -6,6 +6,8 @@
 #include "clock.h"
 #include "error.h"
 #include "render/seeds.h"
+#include "console/option_names.h"
+#include "console/repeat_command.h"
 #include "console/report.h"
 #include "session/open_session.h"
 #include "view/film_figures.h"
@@ -51,7 +53,7 @@ void PanelEngine::guarded(const Work& work) {
     try {
         work();
     } catch (const std::exception& error) {
-        shot_.error = one_line(error.what());
+        shot_.error = one_line(with_option_names(error.what()));
         shot_.device_lost = dynamic_cast<const DeviceLost*>(&error) != nullptr;
         shot_.busy.clear();
         applied_.reset();
@@ -269,7 +271,7 @@ KeptFilm PanelEngine::film() {
     kept.request.settings = settings();
     kept.request.settings.moves = false;  // what a renderer is told, not what is asked for
     const FilmTotals totals = film_totals(kept.film);
-    kept.outcome.program = program_version();
+    kept.outcome.maker = this_program();
     kept.outcome.device = shot_.device;
     kept.outcome.spp = samples_;
     kept.outcome.uneven = spoiled_;

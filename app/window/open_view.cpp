@@ -9,6 +9,7 @@
 
 #include "backend/cpu_renderer.h"
 #include "clock.h"
+#include "console/option_names.h"
 #include "image/tonemap_image.h"
 #include "device/validation.h"
 #include "renderer/vulkan_renderer.h"
@@ -90,8 +91,9 @@ void OpenView::say(const std::string& text) {
 }
 
 void OpenView::report(const std::string& text) {
-    show_message(interface_, text, true, now_seconds());
-    log_.write("error", {{"text", text}});
+    const std::string message = with_option_names(text);
+    show_message(interface_, message, true, now_seconds());
+    log_.write("error", {{"text", message}});
 }
 
 Panel OpenView::main_panel() const {

@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "console/option_names.h"
+
 namespace diptych::core::app {
 
 namespace {
@@ -53,7 +55,7 @@ void PixelReplay::take(Answer& answer) {
         result_.backends.insert(result_.backends.begin() + place, answer.backend);
         result_.devices.insert(result_.devices.begin() + place, answer.device);
     } catch (const Error& error) {
-        error_ = error.what();
+        error_ = with_option_names(error.what());
     }
     compare_paths(result_);
 }

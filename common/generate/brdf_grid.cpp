@@ -1,5 +1,5 @@
-// Spheres in a studio: roughness grows to the right, metalness upwards. `--brdf` renders the same file with either
-// lobe.
+// Spheres in a studio: roughness grows to the right, metalness upwards. The setting `brdf` chooses the
+// microfacet model of all of them.
 #include "generate/scenes.h"
 #include "generate/shapes.h"
 

@@ -115,7 +115,7 @@ GeneratedScene generate_courtyard(const GenerateOptions&) {
     scene.name = "courtyard";
     scene.environment.kind = Environment::Kind::constant;
     scene.environment.scale = {1.8F, 2.1F, 2.6F};
-    out.recommended_arguments = "--env 1.8,2.1,2.6";
+    out.recommended.environment = "1.8,2.1,2.6";
 
     const int stone = add_material(scene, make_material("stone", {0.62F, 0.56F, 0.46F}, 0, 0.8F));
     const int plaster = add_material(scene, make_material("plaster", {0.7F, 0.38F, 0.25F}, 0, 0.9F));

@@ -76,7 +76,7 @@ Scene furnished_room(const char* name, const glm::dmat4& place, float albedo) {
 }  // namespace
 
 GeneratedScene generate_extreme_instances(const GenerateOptions&) {
-    GeneratedScene out{furnished_room("instances", glm::dmat4(1), 0.7F), ""};
+    GeneratedScene out{furnished_room("instances", glm::dmat4(1), 0.7F), {}};
     Scene& scene = out.scene;
     const int blue = add_material(scene, matte("blue", {0.2F, 0.3F, 0.7F}));
     Primitive cone;
@@ -107,7 +107,7 @@ GeneratedScene generate_extreme_near_lamp(const GenerateOptions&) {
     add_object(scene, "plane", {level(glm::vec3(0), 1, true, grey)});
     add_object(scene, "lamp", {level({0, 1e-3F, 0}, 2e-3F, false, lamp)});
     scene.cameras.push_back(make_camera("camera", {0, 4e-4, 0.012}, {0, 0, 0}, 30));
-    out.recommended_arguments = "--env none";  // dark but for a few square millimetres
+    out.recommended.environment = "none";  // dark but for a few square millimetres
     return out;
 }
 
@@ -136,11 +136,11 @@ GeneratedScene generate_extreme_sun(const GenerateOptions&) {
 }
 
 GeneratedScene generate_extreme_far_room(const GenerateOptions&) {
-    return {furnished_room("far-room", translation(1e5, -3e4, 7e4), 0.7F), ""};
+    return {furnished_room("far-room", translation(1e5, -3e4, 7e4), 0.7F), {}};
 }
 
 GeneratedScene generate_extreme_macro(const GenerateOptions&) {
-    return {furnished_room("macro", scaling(5e-6, 5e-6, 5e-6), 0.7F), ""};
+    return {furnished_room("macro", scaling(5e-6, 5e-6, 5e-6), 0.7F), {}};
 }
 
 GeneratedScene generate_extreme_wide(const GenerateOptions&) {
@@ -170,12 +170,12 @@ GeneratedScene generate_extreme_white_room(const GenerateOptions&) {
     add_object(scene, "block", {box({-0.25F, -0.4F, -0.25F}, {0.25F, 0.4F, 0.25F}, white, false)},
                translation(-0.4, -0.5, -0.3) * askew());
     scene.cameras.push_back(make_camera("camera", {0.1, 0.1, 0.95}, {0, -0.15, -1}, 70));
-    out.recommended_arguments = "--max-depth 64";
+    out.recommended.max_depth = 64;
     return out;
 }
 
 GeneratedScene generate_extreme_coplanar(const GenerateOptions&) {
-    GeneratedScene out{furnished_room("coplanar", glm::dmat4(1), 0.7F), ""};
+    GeneratedScene out{furnished_room("coplanar", glm::dmat4(1), 0.7F), {}};
     Scene& scene = out.scene;
     const int white = 0;
     // The floor twice more, the second in part; a block that stands in it, its bottom in the floor's plane; two that
@@ -190,7 +190,7 @@ GeneratedScene generate_extreme_coplanar(const GenerateOptions&) {
 }
 
 GeneratedScene generate_extreme_broken_mesh(const GenerateOptions&) {
-    GeneratedScene out{furnished_room("broken-mesh", glm::dmat4(1), 0.7F), ""};
+    GeneratedScene out{furnished_room("broken-mesh", glm::dmat4(1), 0.7F), {}};
     Scene& scene = out.scene;
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     const int lamp = 2;

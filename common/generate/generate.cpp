@@ -13,7 +13,7 @@ constexpr SceneGenerator generators[] = {
     {"furnace", "a closed room where every ray sees 0.5", generate_furnace},
     {"normal-map", "a brick relief head-on and at a grazing angle", generate_normal_map},
     {"courtyard", "a columned hall around a court under the sky", generate_courtyard},
-    {"many-lights", "a street at night with --count emitters, most of them hidden", generate_many_lights},
+    {"many-lights", "a street at night with `count` emitters, most of them hidden", generate_many_lights},
     {"mirror-maze", "perfect mirrors and small coloured lamps", generate_mirror_maze},
     {"moving-light", "a room whose occluder, lamps and second camera move", generate_moving_light},
 };

@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -14,9 +15,15 @@ struct GenerateOptions {
     std::uint32_t seed = 1;      // many-lights: which street
 };
 
+/// Settings of a render that shows the scene as it is meant: what glTF cannot hold.
+struct RecommendedSettings {
+    std::string environment;                 // as RenderRequest::environment; empty: the default
+    std::optional<std::uint32_t> max_depth;  // none: the default
+};
+
 struct GeneratedScene {
     Scene scene;
-    std::string recommended_arguments;  // for `diptych render`, beside the file: what glTF cannot hold
+    RecommendedSettings recommended;
 };
 
 struct SceneGenerator {

@@ -130,7 +130,7 @@ std::vector<std::uint8_t> shuffled_levels(std::uint64_t count, GeneratorRandom& 
 
 GeneratedScene generate_many_lights(const GenerateOptions& options) {
     if (options.count < 1 || options.count > most_emitters)
-        throw Error("many-lights: --count " + std::to_string(options.count) + " is not within 1 and " +
+        throw Error("many-lights: `count` " + std::to_string(options.count) + " is not within 1 and " +
                     std::to_string(most_emitters));
     GeneratedScene out;
     Scene& scene = out.scene;

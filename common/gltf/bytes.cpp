@@ -162,7 +162,7 @@ std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem
         throw Error("the URI holds a zero byte");
     }
     if (!allow_external && leads_out(uri)) {
-        throw Error("the URI '" + uri + "' leads out of the file's folder (--allow-external reads it)");
+        throw Error("the URI '" + uri + "' leads out of the file's folder (`allow_external` reads it)");
     }
     try {
         return read_bytes(path_of_uri(uri, folder));

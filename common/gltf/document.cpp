@@ -206,7 +206,7 @@ void check_extensions(Document& document, const Json& root, const std::vector<st
         }
         if (!contains(ignored, extension)) {
             fail(document, "extensionsRequired",
-                 "needs " + extension + ", which is not supported (--ignore-extension " + extension +
+                 "needs " + extension + ", which is not supported (`ignored_extensions` " + extension +
                      " does without it)");
         }
         document.warnings.add(extension + " is ignored, as asked for", document.file + ": extensionsRequired");

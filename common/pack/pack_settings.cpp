@@ -41,10 +41,10 @@ void check_atlas(const RenderSettings& settings) {
         return;
     }
     if (!resamples(settings.integrator)) {
-        throw Error("--atlas " + std::to_string(tile) + ": goes with --integrator ris or restir");
+        throw Error("`atlas` " + std::to_string(tile) + ": goes with `integrator` ris or restir");
     }
     if (settings.width % tile != 0 || settings.height % tile != 0) {
-        throw Error("--atlas " + std::to_string(tile) + ": does not divide the size of " +
+        throw Error("`atlas` " + std::to_string(tile) + ": does not divide the size of " +
                     std::to_string(settings.width) + "x" + std::to_string(settings.height));
     }
 }

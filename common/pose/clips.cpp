@@ -50,7 +50,7 @@ void play_all_clips(Scene& scene) {
             channel.plays = owner == i;
             if (!channel.plays) {
                 scene.animations[owner].warnings.add(
-                    "plays, as the first of several clips for one target; --clip chooses another one",
+                    "plays, as the first of several clips for one target; `clip` chooses another one",
                     scene.name + ": clip " + clip_label(scene, owner), clip_label(scene, i) + " does not play there");
             }
         }

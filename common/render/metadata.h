@@ -1,18 +1,25 @@
-// What a picture says of its own making, so that it can be made again.
+// The metadata of a picture: how it was made, so that it can be made again.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 
-#include "path/path_record.h"
 #include "render/request.h"
 
 namespace diptych::core {
 
+/// The front end that makes a picture.
+struct PictureMaker {
+    std::string program;  // "diptych 0.1.0 (commit …)"
+    /// How its user repeats a render of `spp` samples to the bit: a command line, for example. May be empty.
+    std::function<std::string(const RenderRequest& request, std::uint32_t spp)> command;
+};
+
 /// How a render went.
 struct RenderOutcome {
-    std::string program;  // "diptych 0.1.0 (commit …)"
+    PictureMaker maker;
     std::string device;
     std::uint32_t spp = 0;  // that every pixel has been given
     bool interrupted = false;
@@ -22,17 +29,7 @@ struct RenderOutcome {
     std::uint64_t nonfinite = 0;
 };
 
-/// As one word for a shell.
-std::string shell_quoted(const std::string& word);
-
-/// The command line that repeats a render of `spp` samples to the bit: every setting that matters, shell-quoted, files
-/// as given.
-std::string repeat_command(const RenderRequest& request, std::uint32_t spp);
-
-/// The command line that replays one of its paths.
-std::string replay_command(const RenderRequest& request, const shared::PathQuery& path);
-
-/// Values by name; "command" is repeat_command of what was reached.
+/// Values by name. "command" is the maker's command for the samples that were reached; left out without a command.
 std::map<std::string, std::string> render_metadata(const RenderRequest& request, const RenderOutcome& outcome);
 
 }  // namespace diptych::core

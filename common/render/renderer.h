@@ -75,7 +75,7 @@ public:
 
     /// Empties the film for the next picture of a chain: the seed stays, and so does what restir keeps from frame to
     /// frame, as long as the sample indices go on too.
-    virtual void clear_film() { throw Error("--backend " + backend() + ": begins every picture anew"); }
+    virtual void clear_film() { throw Error("`backend` " + backend() + ": begins every picture anew"); }
 
     /// Goes on with another moment of its scene: `moment` is what it was made from, after pack_moment, or a copy with
     /// the same meshes. Takes only what moves. Film and seed stay; restart begins a new picture. The CPU panel refers
@@ -88,7 +88,7 @@ public:
     /// touch stays: geometry, acceleration structures, pipelines met before. The CPU panel refers to `packed` from then
     /// on, and to the vertices and triangles of the first pack. Throws Error where the backend cannot.
     virtual void reconfigure(const PackedScene&) {
-        throw Error("--backend " + backend() + ": cannot go on with other settings");
+        throw Error("`backend` " + backend() + ": cannot go on with other settings");
     }
 
     /// Seconds the device itself worked on `render` calls so far: timestamps on a GPU, wall clock on the CPU.
@@ -98,7 +98,7 @@ public:
     virtual std::vector<PassTime> pass_times() const { return {}; }
 
     /// From now on, after every pass. Throws Error where the backend cannot.
-    virtual void watch_reservoirs(ReservoirHook) { throw Error("--backend " + backend() + ": has no reservoirs"); }
+    virtual void watch_reservoirs(ReservoirHook) { throw Error("`backend` " + backend() + ": has no reservoirs"); }
 
     /// A copy of what has been accumulated.
     virtual Film film() const = 0;
@@ -115,7 +115,7 @@ public:
     virtual std::vector<shared::PathSummary> summarize_paths(std::span<const shared::PathQuery>) { refuse_paths(); }
 
 private:
-    [[noreturn]] void refuse_paths() const { throw Error("--backend " + backend() + ": keeps no record of its paths"); }
+    [[noreturn]] void refuse_paths() const { throw Error("`backend` " + backend() + ": keeps no record of its paths"); }
 };
 
 }  // namespace diptych::core

@@ -52,7 +52,7 @@ struct RenderRequest {
     RenderSettings settings;
 };
 
-/// The environment that lights the picture, as --env would name it; empty where the scene lights itself.
+/// RenderRequest::environment of the picture, with a sky that was added; empty where the scene lights itself.
 inline std::string used_environment(const RenderRequest& request) {
     return request.adds_neutral_sky ? neutral_environment : request.environment;
 }

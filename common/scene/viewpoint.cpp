@@ -10,27 +10,27 @@ namespace {
 
 void place_eye(const Viewpoint& viewpoint, Camera& camera) {
     if (viewpoint.eye.has_value() != viewpoint.look_at.has_value()) {
-        throw Error(viewpoint.eye ? "--eye: wants --look-at, the point it looks at"
-                                  : "--look-at: wants --eye, the point it is seen from");
+        throw Error(viewpoint.eye ? "`eye`: wants `look_at`, the point it looks at"
+                                  : "`look_at`: wants `eye`, the point it is seen from");
     }
     if (!viewpoint.eye) {
         if (viewpoint.up) {
-            throw Error("--up: goes with --eye and --look-at");
+            throw Error("`up`: goes with `eye` and `look_at`");
         }
         return;
     }
     const glm::dvec3 back = *viewpoint.eye - *viewpoint.look_at;
     const glm::dvec3 up = viewpoint.up.value_or(glm::dvec3(0, 1, 0));
     if (!(glm::length(back) > 0)) {
-        throw Error("--eye, --look-at: are one point, so that there is no direction between them");
+        throw Error("`eye`, `look_at`: are one point, so that there is no direction between them");
     }
     if (!(glm::length(up) > 0)) {
-        throw Error("--up: has no direction");
+        throw Error("`up`: has no direction");
     }
     const glm::dvec3 z = glm::normalize(back);
     const glm::dvec3 right = glm::cross(glm::normalize(up), z);
     if (!(glm::length(right) > 1e-9)) {
-        throw Error("--up: is parallel to the line from --eye to --look-at; give another");
+        throw Error("`up`: is parallel to the line from `eye` to `look_at`; give another");
     }
     const glm::dvec3 x = glm::normalize(right);
     camera.camera_to_world = glm::dmat4(1);
@@ -52,13 +52,13 @@ void place_at(const Viewpoint& viewpoint, Camera& camera) {
     place_eye(viewpoint, camera);
     if (viewpoint.fov) {
         if (camera.orthographic) {
-            throw Error("--fov: the camera '" + camera.name + "' is orthographic; give --view-height");
+            throw Error("`fov`: the camera '" + camera.name + "' is orthographic; give `view_height`");
         }
         camera.vertical_fov = glm::radians(*viewpoint.fov);
     }
     if (viewpoint.view_height) {
         if (!camera.orthographic) {
-            throw Error("--view-height: the camera '" + camera.name + "' is not orthographic; give --fov");
+            throw Error("`view_height`: the camera '" + camera.name + "' is not orthographic; give `fov`");
         }
         camera.orthographic_height = *viewpoint.view_height;
     }

@@ -1,4 +1,4 @@
-// Any camera at any place, as a command line can say it.
+// Any camera at any place.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -28,7 +28,7 @@ struct LensChoice {
 /// The camera's lens as chosen.
 void place_lens(const LensChoice& lens, Camera& camera);
 
-/// Puts the camera there; one that an animation moved hangs in nothing afterwards. Throws Error, naming the option,
+/// Puts the camera there; one that an animation moved hangs in nothing afterwards. Throws Error, naming the setting,
 /// where eye and look_at are one point or `up` is parallel to the line between them, a part is missing, or the camera
 /// is of the other kind.
 void place_at(const Viewpoint& viewpoint, Camera& camera);

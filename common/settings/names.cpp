@@ -45,7 +45,7 @@ const char* name_in(const Choice<T> (&choices)[N], T value) {
 }
 
 template <typename T, std::size_t N>
-T value_in(const Choice<T> (&choices)[N], const char* option, const std::string& name) {
+T value_in(const Choice<T> (&choices)[N], const char* setting, const std::string& name) {
     std::string names;
     for (const Choice<T>& choice : choices) {
         if (name == choice.name) {
@@ -54,7 +54,7 @@ T value_in(const Choice<T> (&choices)[N], const char* option, const std::string&
         names += names.empty() ? "" : ", ";
         names += choice.name;
     }
-    throw Error(fmt::format("{} {}: there are only {}", option, name, names));
+    throw Error(fmt::format("`{}` {}: there are only {}", setting, name, names));
 }
 
 }  // namespace
@@ -82,25 +82,25 @@ const char* name_of(ResamplingVisibility visibility) {
 }
 
 Integrator integrator_from_name(const std::string& name) {
-    return value_in(integrators, "--integrator", name);
+    return value_in(integrators, "integrator", name);
 }
 BrdfModel brdf_from_name(const std::string& name) {
-    return value_in(brdfs, "--brdf", name);
+    return value_in(brdfs, "brdf", name);
 }
 NormalMaps normal_maps_from_name(const std::string& name) {
-    return value_in(normal_maps, "--normal-maps", name);
+    return value_in(normal_maps, "normal_maps", name);
 }
 SamplerKind sampler_from_name(const std::string& name) {
-    return value_in(samplers, "--sampler", name);
+    return value_in(samplers, "sampler", name);
 }
 ResamplingMis resampling_mis_from_name(const std::string& name) {
-    return value_in(resampling_mis, "--reuse-mis", name);
+    return value_in(resampling_mis, "reuse_mis", name);
 }
 ResamplingVisibility resampling_visibility_from_name(const std::string& name) {
-    return value_in(resampling_visibility, "--reuse-visibility", name);
+    return value_in(resampling_visibility, "reuse_visibility", name);
 }
 MisHeuristic mis_from_name(const std::string& name) {
-    return value_in(heuristics, "--mis", name);
+    return value_in(heuristics, "mis", name);
 }
 
 }  // namespace diptych::core

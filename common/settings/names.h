@@ -1,4 +1,4 @@
-// The command line's names of the settings' choices.
+// Names of the settings' choices, for command lines, files and interfaces.
 #pragma once
 
 #include <string>

@@ -41,6 +41,8 @@ struct ResamplingSettings {
     float confidence_cap = 4;
     ResamplingMis mis = ResamplingMis::pairwise;
     ResamplingVisibility visibility = ResamplingVisibility::shading;
+
+    bool operator==(const ResamplingSettings&) const = default;
 };
 
 struct RenderSettings {
@@ -61,6 +63,8 @@ struct RenderSettings {
     bool moves = false;               // the scene has other moments, which reuse will look back to
     std::uint32_t atlas_tile = 0;  // ris and restir: pixels of the side of isolated copies of the view; 0 is one view
     ResamplingSettings resampling;
+
+    bool operator==(const RenderSettings&) const = default;
 };
 
 /// Whether frames reuse what those before them found, so that they go on from one another and their samples depend on

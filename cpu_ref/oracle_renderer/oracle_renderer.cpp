@@ -111,7 +111,7 @@ public:
     }
 
     TraversalBench bench_traversal(std::uint32_t) override {
-        throw Error("--backend oracle: has no bare traversal to measure; use cpu or vulkan");
+        throw Error("`backend` oracle: has no bare traversal to measure; use cpu or vulkan");
     }
 
 private:
@@ -143,7 +143,7 @@ oracle::Mode oracle_mode_from_name(const std::string& name) {
     if (name == "area") {
         return oracle::Mode::area;
     }
-    throw Error(fmt::format("--oracle-mode {}: there are only mis, bsdf, hemisphere, area", name));
+    throw Error(fmt::format("`oracle_mode` {}: there are only mis, bsdf, hemisphere, area", name));
 }
 
 std::unique_ptr<Renderer> make_oracle_renderer(const Scene& scene, const RenderSettings& settings, oracle::Mode mode,

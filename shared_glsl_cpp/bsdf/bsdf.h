@@ -16,7 +16,7 @@
 
 SHARED_BEGIN
 
-CONST float ALPHA_MIRROR = 1.0e-4f;  // roughness below this is a perfect mirror
+CONST float ALPHA_MIRROR = 1.0e-4f;  // an alpha below this is a perfect mirror
 CONST float COS_MIN = 1.0e-7f;       // a cosine up to this counts as below the horizon, in sample, eval and pdf alike
 CONST float LOBE_MIN = 0.1f;         // the smallest selection probability of a lobe that can reflect
 

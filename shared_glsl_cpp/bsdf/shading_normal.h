@@ -7,7 +7,7 @@
 SHARED_BEGIN
 
 CONST float BENT_COS = 1.0e-3f;    // smallest cosine of wo to the normal it is shaded with
-CONST float MAPPED_COS = 1.0e-2f;  // smallest cosine of a mapped normal to the geometric normal
+CONST float MAPPED_COS = 1.0e-2f;  // smallest cosine of a mapped normal to the surface's normal
 CONST float TANGENT_SINE = 1.0e-4f;  // smallest sine of a tangent to the normal; below it the tangent is unusable
 
 /// The unit vector nearest to v whose cosine to the unit `axis` is at least `cos_min`; `axis` itself where v opposes

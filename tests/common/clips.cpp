@@ -51,7 +51,7 @@ TEST_CASE("of two clips for one node the first plays, with one warning, and clip
     CHECK(places(scene) == glm::dvec2(2, 8));
     REQUIRE(clip_warnings(scene).size() == 1);
     CHECK_THAT(clip_warnings(scene).lines()[0],
-               Catch::Contains("clip 0 'walk'") && Catch::Contains("--clip") && Catch::Contains("1 '1' does not play"));
+               Catch::Contains("clip 0 'walk'") && Catch::Contains("`clip`") && Catch::Contains("1 '1' does not play"));
 }
 
 TEST_CASE("a clip that is chosen plays alone, without a warning", "[clips]") {

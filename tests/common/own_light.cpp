@@ -178,7 +178,7 @@ TEST_CASE("all scenes of the project that emit light themselves", "[own_light]")
         const auto other = others.find(generator.name);
         CHECK(own_light(generated.scene) == (other == others.end() ? OwnLight::enough : other->second));
         // What needs another sky than the default says so.
-        CHECK((other == others.end() || generated.recommended_arguments.find("--env") != std::string::npos));
+        CHECK((other == others.end() || !generated.recommended.environment.empty()));
     };
     for (const SceneGenerator& generator : scene_generators()) {
         check(generator);

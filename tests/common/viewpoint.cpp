@@ -72,11 +72,11 @@ TEST_CASE("an empty viewpoint leaves the camera, node included") {
 TEST_CASE("viewpoints that are none are refused") {
     Camera camera;
     CHECK_THROWS_WITH(place_at(placed(V(1), V(1)), camera), Catch::Contains("one point"));
-    CHECK_THROWS_WITH(place_at(placed(V(0, 1, 0), V(0)), camera), Catch::Contains("--up: is parallel"));
+    CHECK_THROWS_WITH(place_at(placed(V(0, 1, 0), V(0)), camera), Catch::Contains("`up`: is parallel"));
     CHECK_THROWS_WITH(place_at(placed(V(0, 0, 1), V(0), V(0)), camera), Catch::Contains("no direction"));
-    CHECK_THROWS_WITH(place_at(placed(V(0, 0, 1), {}), camera), Catch::Contains("--look-at"));
-    CHECK_THROWS_WITH(place_at(placed({}, V(0, 0, 1)), camera), Catch::Contains("--eye"));
-    CHECK_THROWS_WITH(place_at(placed({}, {}, V(0, 0, 1)), camera), Catch::Contains("--up"));
+    CHECK_THROWS_WITH(place_at(placed(V(0, 0, 1), {}), camera), Catch::Contains("`look_at`"));
+    CHECK_THROWS_WITH(place_at(placed({}, V(0, 0, 1)), camera), Catch::Contains("`eye`"));
+    CHECK_THROWS_WITH(place_at(placed({}, {}, V(0, 0, 1)), camera), Catch::Contains("`up`"));
     CHECK_THROWS_WITH(place_at(high(2), camera), Catch::Contains("not orthographic"));
     camera.orthographic = true;
     CHECK_THROWS_WITH(place_at(wide(20), camera), Catch::Contains("orthographic"));

@@ -47,7 +47,7 @@ Measured measure(const std::filesystem::path& folder, const ConvergeSubject& sub
     settings.runs = runs;
     settings.spp_max = 5;  // 4 is the power of two that is not above it
     settings.picture_seconds = 1e-3;
-    settings.program = "a test";
+    settings.maker.program = "a test";
     ConvergeState state(folder.string());
     std::atomic<bool> cancel = false;
     Measured measured;

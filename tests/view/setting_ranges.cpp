@@ -8,7 +8,7 @@
 
 #include "commands/arguments/arguments.h"
 #include "catch.h"
-#include "render/metadata.h"
+#include "console/repeat_command.h"
 #include "settings/ranges.h"
 #include "view/view_state.h"
 
@@ -122,7 +122,7 @@ TEST_CASE("a setting has one name in options, labels and metadata", "[ranges]") 
     RenderRequest request;
     request.settings.integrator = Integrator::restir;
     const auto metadata = render_metadata(request, {});
-    const std::string command = repeat_command(request, 1);
+    const std::string command = app::repeat_command(request, 1);
     for (const SettingRange& setting : ranges::all) {
         INFO(setting.name);
         const bool of_sun = std::string(setting.name).rfind("sun-", 0) == 0;

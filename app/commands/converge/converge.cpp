@@ -16,7 +16,7 @@
 #include "image/atomic_file.h"
 #include "image/image_file.h"
 #include "measure/converge/measurement.h"
-#include "render/metadata.h"
+#include "console/repeat_command.h"
 #include "session/open_session.h"
 #include "session/scene_setup.h"
 
@@ -62,7 +62,7 @@ ConvergeSubject plan_subject(const ConvergeOptions& options, const Scene& scene)
 }
 
 int run_converge(ConvergeOptions options) {
-    options.program = program_version();
+    options.maker = this_program();
     if (options.arguments.size.empty() && !reference_is_file(options)) {
         options.arguments.size = default_converge_size;
     }

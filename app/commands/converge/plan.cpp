@@ -10,7 +10,7 @@
 #include "error.h"
 #include "image/atomic_file.h"
 #include "oracle_renderer/oracle_renderer.h"
-#include "render/metadata.h"
+#include "console/repeat_command.h"
 #include "settings/names.h"
 #include "console/report.h"
 #include "commands/verify/report.h"

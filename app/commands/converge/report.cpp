@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "build_info.h"
-#include "render/metadata.h"
+#include "console/repeat_command.h"
 #include "settings/names.h"
 #include "console/report.h"
 

@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "commands/arguments/recommended_arguments.h"
 #include "commands/command.h"
 #include "error.h"
 #include "image/atomic_file.h"
 #include "random_scene/scene_files.h"
+#include "console/option_names.h"
 #include "console/report.h"
 #include "generate/generate.h"
 #include "gltf/write.h"
@@ -42,10 +44,11 @@ int list_scenes(bool json) {
     all.insert(all.end(), extreme_scene_generators().begin(), extreme_scene_generators().end());
     all.push_back({random_name, "a small scene drawn at random by --seed, as verify --random judges them", nullptr});
     for (const SceneGenerator& generator : all) {
+        const std::string description = with_option_names(generator.description);
         if (json) {
-            names.push_back({{"name", generator.name}, {"description", generator.description}});
+            names.push_back({{"name", generator.name}, {"description", description}});
         } else {
-            fmt::print("{:<20} {}\n", generator.name, generator.description);
+            fmt::print("{:<20} {}\n", generator.name, description);
         }
     }
     if (json) {
@@ -57,13 +60,15 @@ int list_scenes(bool json) {
 /// Both return what `diptych render` wants beside the file.
 std::string write_random(const GenerateArguments& options) {
     const std::uint64_t seed = options.generate.seed;
-    return write_random_scene(options.moving ? make_moving_random_scene(seed) : make_random_scene(seed), options.output);
+    const RandomScene random = options.moving ? make_moving_random_scene(seed) : make_random_scene(seed);
+    write_random_scene(random, options.output);
+    return recommended_arguments(random, options.output);
 }
 
 std::string write_generated(const GenerateArguments& options) {
     const GeneratedScene generated = generate_scene(options.name, options.generate);
     write_gltf(generated.scene, options.output);
-    return generated.recommended_arguments;
+    return recommended_arguments(generated.recommended);
 }
 
 int run_generate(const GenerateArguments& options) {

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "commands/arguments/arguments.h"
@@ -11,6 +12,7 @@
 #include "pack/packed_scene.h"
 #include "session/open_session.h"
 #include "render/film.h"
+#include "console/option_names.h"
 #include "console/report.h"
 #include "pose/clips.h"
 #include "scene/default_camera.h"
@@ -142,6 +144,7 @@ nlohmann::ordered_json gather(const Session& session) {
     warnings.append(clip_warnings(scene));
     std::vector<std::string> lines = warnings.lines();
     lines.insert(lines.end(), packed.warnings.begin(), packed.warnings.end());
+    std::transform(lines.begin(), lines.end(), lines.begin(), with_option_names);
     json["warnings"] = lines;
     return json;
 }

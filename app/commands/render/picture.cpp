@@ -9,6 +9,7 @@
 #include "console/progress_line.h"
 #include "render/film_statistics.h"
 #include "render/progressive.h"
+#include "console/repeat_command.h"
 #include "render/metadata.h"
 #include "settings/names.h"
 #include "console/report.h"
@@ -93,7 +94,7 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
     const Film film = renderer.film();
     const FilmTotals totals = film_totals(film);
     RenderOutcome outcome;
-    outcome.program = program_version();
+    outcome.maker = this_program();
     outcome.device = renderer.device();
     outcome.spp = result.spp;
     outcome.interrupted = result.interrupted;

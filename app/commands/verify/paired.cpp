@@ -12,7 +12,7 @@
 #include "image/figures.h"
 #include "image/image_file.h"
 #include "measure/paired_run.h"
-#include "render/metadata.h"
+#include "console/repeat_command.h"
 #include "settings/names.h"
 #include "console/report.h"
 #include "session/scene_setup.h"

@@ -9,6 +9,7 @@
 
 #include "clock.h"
 #include "session/make_renderer.h"
+#include "commands/arguments/recommended_arguments.h"
 #include "commands/command.h"
 #include "error.h"
 #include "console/interrupt.h"
@@ -16,6 +17,7 @@
 #include "random_scene/scene_files.h"
 #include "random_scene/shrink.h"
 #include "settings/names.h"
+#include "console/option_names.h"
 #include "console/report.h"
 #include "console/step_line.h"
 #include "commands/verify/report.h"
@@ -186,7 +188,8 @@ Failure write_failure(const RandomPair& failed, const VerifyOptions& options, co
     const std::string name =
         fmt::format("random-{}{}-{}", failed.scene, moves ? "-moving" : "", name_of(failed.integrator));
     const std::filesystem::path file = failing_file(options, name);
-    const std::string arguments = write_random_scene(random, file);
+    write_random_scene(random, file);
+    const std::string arguments = recommended_arguments(random, file);
     return {failed, file.string(), fmt::format("diptych render {} {} -o {}.exr", file.string(), arguments, name),
             fmt::format("diptych verify --random 1 --seed {} {} --integrators {} --backends {} --max-half-width {}",
                         failed.scene, moves ? "--moving" : "--still", name_of(failed.integrator),
@@ -197,7 +200,7 @@ Failure write_failure(const RandomPair& failed, const VerifyOptions& options, co
 Refusal write_refusal(std::uint64_t seed, const VerifyOptions& options, const Error& error) {
     const std::filesystem::path file = failing_file(options, fmt::format("random-{}-refused", seed));
     write_random_scene(scene_of(seed, options), file);
-    return {seed, file.string(), error.what()};
+    return {seed, file.string(), with_option_names(error.what())};
 }
 
 /// One failure a scene: its least likely pair.

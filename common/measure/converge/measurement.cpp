@@ -67,7 +67,7 @@ bool ConvergeMeasurement::find_reference(const std::atomic<bool>& cancel) {
     }
     MethodRunner runner(subject_.scene, *subject_.reference, subject_.open);
     const std::uint32_t spp = *std::max_element(limits_.begin(), limits_.end());
-    reference_ = render_reference(runner, spp, settings_.program, state_, cancel, [&](std::uint32_t block) {
+    reference_ = render_reference(runner, spp, settings_.maker, state_, cancel, [&](std::uint32_t block) {
         begin_(fmt::format("reference by {}, block {} of {}", runner.method().name, block + 1, reference_blocks));
     });
     return reference_.has_value();
@@ -134,7 +134,7 @@ bool ConvergeMeasurement::render_pictures(const std::atomic<bool>& cancel) {
     const double seconds = summary()->equal_seconds;
     for (const std::unique_ptr<MethodRunner>& runner : runners_) {
         begin_(fmt::format("{}, its picture", runner->method().name));
-        if (!render_picture(*runner, seconds, *reference_, settings_.program, state_, cancel)) {
+        if (!render_picture(*runner, seconds, *reference_, settings_.maker, state_, cancel)) {
             return false;
         }
     }

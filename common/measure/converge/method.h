@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "render/metadata.h"
 #include "render/request.h"
 #include "render/seeds.h"
 
@@ -15,7 +16,7 @@ struct ConvergeSettings {
     double seconds = 0;           // above 0: as many samples, a power of two, as each method renders in so long
     double picture_seconds = 0;   // that the pictures compare; 0: as long as the fastest method's whole run
     double target_relmse = 0;     // to which times are told; 0: what half of the methods reach
-    std::string program;          // what its pictures say that made them
+    PictureMaker maker;           // what its pictures say that made them
 };
 
 /// Blocks of a reference that is rendered: each has a seed of its own and as many samples as the longest run of any

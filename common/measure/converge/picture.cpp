@@ -10,7 +10,7 @@
 
 namespace diptych::core {
 
-bool render_picture(MethodRunner& runner, double seconds, const ReferencePicture& reference, const std::string& program,
+bool render_picture(MethodRunner& runner, double seconds, const ReferencePicture& reference, const PictureMaker& maker,
                     ConvergeState& state, const std::atomic<bool>& cancel) {
     const Method& method = runner.method();
     const std::string stem = file_stem(method.name);
@@ -36,14 +36,14 @@ bool render_picture(MethodRunner& runner, double seconds, const ReferencePicture
                           request.settings.sample_count = spp;
                           request.settings.seed = method.picture_seed;
                           RenderOutcome outcome;
-                          outcome.program = program;
+                          outcome.maker = maker;
                           outcome.device = runner.device();
                           outcome.spp = spp;
                           outcome.seconds = device_seconds;
                           image.metadata = render_metadata(request, outcome);
                           write_exr(path, image);
                           state.set_picture(method.name, {seconds, spp, device_seconds, difference.relmse,
-                                                          repeat_command(request, spp)});
+                                                          maker.command ? maker.command(request, spp) : ""});
                       });
 }
 

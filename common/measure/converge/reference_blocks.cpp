@@ -60,7 +60,7 @@ Blocks load(const std::string& path, std::size_t values) {
     for (std::vector<double>* into : {&blocks.sum, &blocks.squares}) {
         into->resize(values);
         if (!file.read(reinterpret_cast<char*>(into->data()), static_cast<std::streamsize>(values * sizeof(double)))) {
-            throw Error(fmt::format("{}: is not whole; give another -o", path));
+            throw Error(fmt::format("{}: is not whole; give another `output`", path));
         }
     }
     return blocks;
@@ -82,7 +82,7 @@ LayeredImage picture_of(const Blocks& blocks, int width, int height) {
 
 }  // namespace
 
-std::optional<ReferencePicture> render_reference(MethodRunner& runner, std::uint32_t spp, const std::string& program,
+std::optional<ReferencePicture> render_reference(MethodRunner& runner, std::uint32_t spp, const PictureMaker& maker,
                                                  ConvergeState& state, const std::atomic<bool>& cancel,
                                                  const std::function<void(std::uint32_t)>& begin_block) {
     const Method& method = runner.method();
@@ -110,7 +110,7 @@ std::optional<ReferencePicture> render_reference(MethodRunner& runner, std::uint
     RenderRequest request = method.request;
     request.output = "reference.exr";
     RenderOutcome outcome;
-    outcome.program = program;
+    outcome.maker = maker;
     outcome.device = runner.device();
     outcome.spp = spp * reference_blocks;
     outcome.seconds = seconds;

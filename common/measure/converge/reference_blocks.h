@@ -10,9 +10,9 @@
 namespace diptych::core {
 
 /// Renders what is missing of it, `spp` samples a block, and leaves reference.exr in the folder; a finished one is read
-/// back. `program` is what the picture says that made it. Nothing where `cancel` came in between: the blocks so far are
+/// back. `maker` is what the picture says that made it. Nothing where `cancel` came in between: the blocks so far are
 /// kept. Throws Error.
-std::optional<ReferencePicture> render_reference(MethodRunner& runner, std::uint32_t spp, const std::string& program,
+std::optional<ReferencePicture> render_reference(MethodRunner& runner, std::uint32_t spp, const PictureMaker& maker,
                                                  ConvergeState& state, const std::atomic<bool>& cancel,
                                                  const std::function<void(std::uint32_t)>& begin_block);
 

@@ -65,7 +65,7 @@ ConvergeState::ConvergeState(const std::string& folder) : folder_(folder) {
     for (std::size_t end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
         const Json event = Json::parse(text.substr(at, end - at), nullptr, false);
         if (event.is_discarded()) {
-            throw Error(fmt::format("{}: has a line that is not JSON; give another -o", name));
+            throw Error(fmt::format("{}: has a line that is not JSON; give another `output`", name));
         }
         const std::string kind = event.value("kind", ""), method = event.value("method", "");
         if (kind == "scene") {
@@ -187,7 +187,7 @@ std::map<std::uint32_t, DeviationSums> ConvergeState::load_sums(const std::strin
         all[spp] = std::move(sums);
     }
     if (!whole) {
-        throw Error(fmt::format("{}: is not whole; give another -o", name));
+        throw Error(fmt::format("{}: is not whole; give another `output`", name));
     }
     return all;
 }
