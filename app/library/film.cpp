@@ -148,7 +148,7 @@ void Film::save(const std::string& path) const {
         core::RenderRequest request = data_->request;
         request.output = path;
         core::RenderOutcome outcome;
-        outcome.program = "diptych " DIPTYCH_VERSION;
+        outcome.maker.program = "diptych " DIPTYCH_VERSION;
         outcome.device = data_->info.device;
         outcome.spp = data_->info.spp;
         outcome.seconds = data_->info.seconds;

@@ -73,7 +73,7 @@ void write_exr_channels(const fs::path& path, const Image& image, const std::vec
         path, [&](const ImageLibrary& library) { return library.encode_exr(image, channel_names, attributes); });
 }
 
-void write_png(const fs::path& path, const Image& display_values) {
+std::vector<unsigned char> png_bytes(const fs::path& path, const Image& display_values) {
     require_shape(path, display_values, display_values.channels == 1 || display_values.channels == 3);
     ByteImage codes{display_values.width, display_values.height, display_values.channels, {}};
     codes.data.reserve(display_values.data.size());
@@ -81,7 +81,11 @@ void write_png(const fs::path& path, const Image& display_values) {
         const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
         codes.data.push_back(static_cast<std::uint8_t>(std::lround(clamped * 255.0f)));
     }
-    encode_and_write(path, [&](const ImageLibrary& library) { return library.encode_png(codes, true); });
+    return with_library(path, [&](const ImageLibrary& library) { return library.encode_png(codes, true); });
+}
+
+void write_png(const fs::path& path, const Image& display_values) {
+    write_file_atomically(path, png_bytes(path, display_values));
 }
 
 void write_hdr(const fs::path& path, const Image& linear_rgb) {

@@ -52,6 +52,9 @@ void write_exr_channels(const std::filesystem::path& path, const Image& image,
 /// 8-bit PNG of 1 or 3 channels of display values (sRGB encoded already); clamped to [0, 1], NaN becomes 0.
 void write_png(const std::filesystem::path& path, const Image& display_values);
 
+/// What write_png writes, for a file that holds a picture among other things; an Error names that file.
+std::vector<unsigned char> png_bytes(const std::filesystem::path& path, const Image& display_values);
+
 /// Radiance RGBE of linear RGB. The format holds no negative values and no NaN: they become 0; infinity becomes the
 /// largest value.
 void write_hdr(const std::filesystem::path& path, const Image& linear_rgb);

@@ -13,7 +13,7 @@
 #include "html.h"
 #include "image/image_file.h"
 #include "process.h"
-#include "skipping.h"
+#include "svg.h"
 
 using namespace diptych::core;
 using namespace diptych::core::tests;
@@ -66,6 +66,14 @@ std::map<std::string, std::string> errors_of(const std::string& csv) {
             row.at("mse") + " " + row.at("relmse") + " " + row.at("relmse_trimmed") + " " + row.at("rays");
     }
     return errors;
+}
+
+int count_of(const std::string& text, const std::string& part) {
+    int count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
+        ++count;
+    }
+    return count;
 }
 
 ProcessResult converge(const TemporaryFolder& folder, const std::string& scene, const std::string& out,
@@ -143,14 +151,25 @@ TEST_CASE("converge measures, plots and writes a page", "[app]") {
     CHECK(page.find("src=\"http") == std::string::npos);
     CHECK(Json::parse(html_script(page, "data")).at("methods").size() == 2);
     CHECK(Json::parse(html_script(page, "images")).at("cpu:direct:independent").at("error").is_string());
-    if (json.at("plots") == false) {
-        report_left_out("the plots: gnuplot is not installed");
-        return;
+    check_svg_files(folder, {at("error-time.svg"), at("error-samples.svg")});
+    for (const std::string name : {"error-time.svg", "error-samples.svg"}) {
+        const std::string svg = file_text(at(name));
+        CHECK(count_of(svg, "<circle") == 2 * 4);  // methods, counts of samples
+        CHECK(svg.find(">cpu:direct:independent</text>") != std::string::npos);
+        CHECK(svg.find(">cpu:path:hammersley</text>") != std::string::npos);
+        CHECK(svg.find(">relMSE</text>") != std::string::npos);
     }
-    for (const std::string name : {"error-time", "error-samples"}) {
-        CHECK(read_raw(at(name + ".png")).image.width == 1600);
-        CHECK(file_text(at(name + ".svg")).find("</svg>") != std::string::npos);
-    }
+    CHECK_FALSE(json.contains("plots"));
+
+    // The page holds its charts without any script: five quantities over three, each in two sizes, one of them shown.
+    CHECK(count_of(page, "<figure class=\"chart\"") == 15);
+    CHECK(count_of(page, "<figure class=\"chart\" data-what=\"relMSE\" data-over=\"Time\">") == 1);
+    CHECK(count_of(page, " hidden>") == 14 + 1);  // and the tip
+    CHECK(count_of(page, "<svg ") == 30);
+    const std::size_t first = page.find("<svg ");
+    write_text(at("first.svg"), page.substr(first, page.find("</svg>", first) + 6 - first));
+    check_svg_files(folder, {at("first.svg")});
+    CHECK(page.find("<title>cpu:path:hammersley\n8 spp, ") != std::string::npos);
 }
 
 TEST_CASE("converge goes on where it was stopped, and finds what it would have found", "[app]") {
@@ -296,16 +315,15 @@ TEST_CASE("converge refuses what it cannot measure, and a folder of other result
     CHECK(converge(folder, scene, "mine", shown).exit_code == 0);
 }
 
-TEST_CASE("converge does without gnuplot", "[app]") {
+TEST_CASE("converge draws a scene whose name is no plain text", "[app]") {
     const TemporaryFolder folder;
-    const std::string scene = generate_scene(folder, "cornell");
-    const ProcessResult result = run_diptych(folder,
-                                             {"converge", scene, "-o", folder.file("out"), "--methods", "cpu:path",
-                                              "--spp-max", "2", "--runs", "2", "--size", "8", "--json"},
-                                             {"PATH=" + folder.file("nothing")});
-    CHECK(result.exit_code == 0);
-    CHECK(result.err.find("gnuplot is not installed") != std::string::npos);
-    CHECK(Json::parse(result.out).at("plots") == false);
-    CHECK(std::filesystem::exists(folder.file("out/index.html")));
-    CHECK_FALSE(std::filesystem::exists(folder.file("out/error-time.png")));
+    const std::string scene = folder.file("a<b>&\"c\".glb");
+    std::filesystem::copy(generate_scene(folder, "cornell"), scene);
+    const ProcessResult result = converge(
+        folder, scene, "out", {"--methods", "cpu:path", "--spp-max", "2", "--runs", "2", "--size", "8", "--json"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    check_svg_files(folder, {folder.file("out/error-time.svg"), folder.file("out/error-samples.svg")});
+    CHECK(file_text(folder.file("out/error-time.svg")).find("a&lt;b&gt;&amp;&quot;c&quot;.glb") != std::string::npos);
+    CHECK(html_fault(file_text(folder.file("out/index.html"))) == "");
 }

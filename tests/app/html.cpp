@@ -50,7 +50,7 @@ std::string html_fault(const std::string& page) {
                 return fault("</" + name + "> closes nothing", at);
             }
             open.pop_back();
-        } else if (without_end.count(name) == 0) {
+        } else if (without_end.count(name) == 0 && page[end - 1] != '/') {  // "/>" ends an element of SVG
             open.push_back(name);
         }
         at = end + 1;

@@ -142,7 +142,7 @@ TEST_CASE("verify finds a bias that only a light switched on brings about", "[ap
     CHECK(biased.at("verdict") == "FAIL");
     CHECK(biased.at("pairs")[1].at("verdict") == "FAIL");
     CHECK(biased.at("pairs")[1].at("ci95_percent")[1].get<double>() < 0);
-    CHECK(std::string(biased.at("figures")[2]).find("cpu-restir-vs-cpu-path-frame-5-p.png") != std::string::npos);
+    CHECK(std::string(biased.at("figures")[2]).find("cpu-restir-vs-cpu-path-frame-5-p.svg") != std::string::npos);
     const auto unbiased = verify(folder, scene, chains);
     CHECK(unbiased.at("verdict") == "INCONCLUSIVE");  // too few samples for 0.1 %
     for (const auto& pair : unbiased.at("pairs")) {

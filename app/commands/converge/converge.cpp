@@ -6,6 +6,7 @@
 
 #include "clock.h"
 #include "commands/command.h"
+#include "commands/converge/charts.h"
 #include "commands/converge/page.h"
 #include "commands/converge/pictures.h"
 #include "commands/converge/plan.h"
@@ -43,8 +44,8 @@ nlohmann::ordered_json write_report(const ConvergeOptions& options, const std::v
     write_page_pictures(methods, reference, options.page_side, state);
     write_file_atomically(state.path("summary.json"), json.dump(2) + "\n");
     write_file_atomically(state.path("summary.csv"), summary_to_csv(summary));
+    write_charts(json, state);
     write_page(json, state);
-    json["plots"] = write_plots(json, state);
     return json;
 }
 

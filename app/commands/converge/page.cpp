@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 
+#include "chart/svg.h"
+#include "commands/converge/charts.h"
 #include "image/atomic_file.h"
 #include "measure/converge/method.h"
 #include "page_texts.h"
@@ -15,23 +18,6 @@ namespace diptych::core::app {
 
 namespace {
 
-std::string base64(const std::string& bytes) {
-    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve(bytes.size() / 3 * 4 + 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        for (std::size_t k = 0; k < 3; ++k) {
-            group = group << 8U | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            text += k <= count ? digits[group >> (18 - 6 * k) & 63U] : '=';
-        }
-    }
-    return text;
-}
-
 /// A PNG as a data URI; null where there is none.
 nlohmann::ordered_json embedded(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -39,7 +25,7 @@ nlohmann::ordered_json embedded(const std::string& path) {
         return nullptr;
     }
     const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    return "data:image/png;base64," + base64(bytes);
+    return chart::png_uri(bytes);
 }
 
 /// JSON that a script element can hold: no "</" ends it early.
@@ -66,12 +52,31 @@ nlohmann::ordered_json rounded(nlohmann::ordered_json json) {
     return json;
 }
 
-std::string html_text(const std::string& plain) {
-    std::string text;
-    for (const char c : plain) {
-        text += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+/// Every chart twice: for wide windows with the names at the lines' ends, and for narrow ones, which have the names below.
+std::string charts_html(const nlohmann::ordered_json& summary) {
+    std::string html;
+    for (ErrorChart& chart : error_charts(summary)) {
+        html += fmt::format("<figure class=\"chart\" data-what=\"{}\" data-over=\"{}\"{}>\n",
+                            chart::xml_text(chart.what), chart::xml_text(chart.over), html.empty() ? "" : " hidden");
+        chart.chart.width = 1100;
+        chart.chart.height = 560;
+        html += "<div class=\"wide\">" + chart_svg(chart.chart) + "</div>\n";
+        chart.chart.width = 400;
+        chart.chart.height = 340;
+        chart.chart.names = chart::Names::none;
+        html += "<div class=\"narrow\">" + chart_svg(chart.chart) + "</div>\n";
+        html += "<figcaption class=\"note\">" + chart::xml_text(chart.note) + "</figcaption>\n</figure>\n";
     }
-    return text;
+    return html;
+}
+
+/// The colours of the series for the style sheet: --c0, --c1, …
+std::string color_variables() {
+    std::string css;
+    for (const std::string& color : chart::series_colors()) {
+        css += fmt::format("--c{}: {}; ", std::count(css.begin(), css.end(), ';'), color);
+    }
+    return ":root { " + css + "}\n";
 }
 
 /// The template with each {{NAME}} replaced, in one pass: what is put in is not looked at again.
@@ -101,8 +106,9 @@ void write_page(const nlohmann::ordered_json& summary, const ConvergeState& stat
     const std::string name =
         scene.substr(scene.find_last_of('/') == std::string::npos ? 0 : scene.find_last_of('/') + 1);
     write_file_atomically(state.path("index.html"),
-                          filled(page_text("page.html"), {{"TITLE", html_text(name)},
-                                                          {"STYLE", std::string(page_text("page.css"))},
+                          filled(page_text("page.html"), {{"TITLE", chart::xml_text(name)},
+                                                          {"STYLE", color_variables() + std::string(page_text("page.css"))},
+                                                          {"CHARTS", charts_html(summary)},
                                                           {"DATA", script_text(rounded(summary))},
                                                           {"PICTURES", script_text(pictures)},
                                                           {"CHART", std::string(page_text("chart.js"))},

@@ -19,7 +19,7 @@ std::string next_command(const VerifyOptions& options, const SuiteResult& suite)
 void print_suite(const VerifyOptions& options, const SuiteResult& suite);
 nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteResult& suite);
 
-/// Writes NAME-p.png (a map of the tiles' p-values) and NAME-histogram.png for every pair into the folder, NAME as
+/// Writes NAME-p.svg (a map of the tiles' p-values) and NAME-histogram.svg for every pair into the folder, NAME as
 /// "vulkan-path-vs-cpu-path" or "vulkan-path-vs-cpu-path-frame-4"; returns their paths. Throws Error.
 std::vector<std::string> write_suite_figures(const std::string& folder, const SuiteResult& suite);
 

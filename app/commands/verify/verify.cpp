@@ -264,7 +264,7 @@ void add_verify(CLI::App& app, Run& run) {
     command->add_option("--device", request.device, "Vulkan device by index or name; the best by default");
     command->add_option("--threads", request.threads, "CPU threads; one a core by default")->check(CLI::Range(1, 4096));
     command->add_flag("--validation", request.validation, "Run Vulkan's validation layers");
-    command->add_option("-o,--output", options->output, "Folder for a map and a histogram of each pair's p-values");
+    command->add_option("-o,--output", options->output, "Folder for a map and a histogram (SVG) of each pair's p-values");
     command->add_flag("--json", options->json, "Results as JSON on stdout");
     add_random_option(*command, *options);
     command->footer(verify_examples);

@@ -1,9 +1,14 @@
 "use strict";
+const seconds = s => s == null ? "–" : s >= 100 ? s.toFixed(0) + " s" : s >= 1 ? +s.toPrecision(3) + " s"
+  : s >= 1e-3 ? +(1e3 * s).toPrecision(3) + " ms" : +(1e6 * s).toPrecision(3) + " µs";
+const figure = v => v == null ? "–" : v === 0 ? "0" : Math.abs(v) >= 1e4 || Math.abs(v) < 1e-3
+  ? v.toExponential(2).replace("e+", "e") : String(+v.toPrecision(3));
+const countText = n => n >= 1 << 20 ? +(n / (1 << 20)).toFixed(1) + " Mi" : n >= 1 << 14 ? +(n / 1024).toFixed(1) + " Ki" : String(n);
 (() => {
   const byId = id => document.getElementById(id);
   const data = JSON.parse(byId("data").textContent), images = JSON.parse(byId("images").textContent);
   const methods = data.methods;
-  const series = methods.map((m, i) => ({ name: m.method, points: m.checkpoints, color: `var(--c${i % 8})`, dash: i >= 8 ? "6 4" : "", hidden: false }));
+  const series = methods.map((m, i) => ({ name: m.method, color: `var(--c${i % 8})` }));
   const last = m => m.checkpoints[m.checkpoints.length - 1];
   const plural = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
   const devices = [...new Set(methods.map(m => m.setup && m.setup.device).filter(Boolean))];
@@ -23,26 +28,7 @@
       element("b", second.method), pictured.length > 2 ? `, and ${figure(pictured[pictured.length - 1].picture.relmse / best.picture.relmse)} times less than ${pictured[pictured.length - 1].method}.` : ".");
   }
 
-  const plain = key => p => ({ value: p[key] });
-  const yChoices = {
-    "relMSE": { label: "relMSE", y: p => p.relmse, guide: true, note: "Mean over the runs, and its 95 % band. The dotted line is how the error of independent samples falls." },
-    "Trimmed": { label: "relMSE without the worst 0.1 %", y: p => p.relmse_trimmed, guide: true, note: "Without the 0.1 % of the pixels that are worst, which are fireflies as a rule: what most of the picture looks like. The energy that these hold is in summary.csv; no bias is judged by this." },
-    "MSE": { label: "MSE", y: p => p.mse, guide: true, note: "Mean over the runs, and its 95 % band. The dotted line is how the error of independent samples falls." },
-    "Efficiency": { label: "1 / (MSE · s)", y: plain("efficiency"), note: "Constant where the error falls as 1/N. Twice as high is half the time for the same error." },
-    "Bias²": { label: "relative bias²", y: p => ({ value: p.relative_bias_squared.value, low: p.relative_bias_squared.value - 1.96 * p.relative_bias_squared.standard_error, high: p.relative_bias_squared.value + 1.96 * p.relative_bias_squared.standard_error }),
-               note: "An estimate whose expectation is the squared bias. Without one it scatters about 0: about half of the points are below and not drawn, and the others fall as the noise does." },
-  };
-  const xChoices = {
-    "Time": { label: "seconds of rendering", x: p => p.device_seconds, tick: seconds },
-    "Wall clock": { label: "seconds by the wall clock", x: p => p.wall_seconds, tick: seconds },
-    "Samples": { label: "samples a pixel", x: p => p.spp, tick: countText, powersOfTwo: true },
-  };
-  let chosenX = "Time", chosenY = "relMSE", redraw = null;
-  const plot = () => {
-    const cx = xChoices[chosenX], cy = yChoices[chosenY];
-    byId("chart-note").textContent = cy.note;
-    redraw = chart(byId("chart"), series, { x: cx.x, y: cy.y, xLabel: cx.label, yLabel: cy.label, xTick: cx.tick, xPowersOfTwo: cx.powersOfTwo, guide: cy.guide });
-  };
+  const drawn = charts(byId("charts"), byId("tip"));
   const choose = (box, names, current, pick) => names.forEach(name => {
     const button = element("button", name);
     button.type = "button";
@@ -50,19 +36,23 @@
     button.onclick = () => { box.querySelectorAll("button").forEach(b => b.setAttribute("aria-pressed", b === button)); pick(name); };
     box.append(button);
   });
-  choose(byId("choose-y"), Object.keys(yChoices), chosenY, name => { chosenY = name; plot(); });
-  choose(byId("choose-x"), Object.keys(xChoices), chosenX, name => { chosenX = name; plot(); });
-  series.forEach(s => {
+  for (const [box, key] of [["choose-y", "what"], ["choose-x", "over"]]) {
+    const names = drawn.names(key);
+    choose(byId(box), names, names[0], name => drawn.show(key, name));
+  }
+  series.forEach((s, i) => {
     const button = element("button", undefined), dot = element("span", undefined, "dot");
     dot.style.background = s.color;
     button.type = "button";
     button.append(dot, s.name);
     button.setAttribute("aria-pressed", "true");
-    button.onclick = () => { s.hidden = !s.hidden; button.setAttribute("aria-pressed", String(!s.hidden)); plot(); };
+    button.onclick = () => {
+      const visible = button.getAttribute("aria-pressed") !== "true";
+      button.setAttribute("aria-pressed", String(visible));
+      drawn.setSeries(i, visible);
+    };
     byId("legend").append(button);
   });
-  plot();
-  new ResizeObserver(() => redraw()).observe(byId("chart"));
 
   function pictures() {
     const names = methods.map(m => m.method).filter(n => images[n] && images[n].picture);
