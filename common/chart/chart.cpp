@@ -60,14 +60,13 @@ std::string frame(const Chart& chart, const Layout& l) {
 
 /// As far as the line stays within the plot, less a margin.
 std::string guide_line(const Chart& chart, const Layout& l) {
+    const double slope = *chart.guide;
     const double x = std::sqrt(l.x.low * l.x.high);
     const double y = std::sqrt(l.y.low * l.y.high);
-    const double slope = chart.guide->slope;
     const double reach = std::pow(std::min(l.x.high / x, std::pow(l.y.high / y, 1 / std::abs(slope))), 0.92);
-    const Point2 from = l.place(chart, x / reach, y / std::pow(reach, slope));
-    const Point2 to = l.place(chart, x * reach, y * std::pow(reach, slope));
-    return svg_line(from, to, "class=\"guide\" stroke=\"#4a505a\" stroke-dasharray=\"2 5\"") +
-           svg_label({to.x - 6, to.y - 8}, "end", chart.guide->text, std::string("class=\"halo\" ") + halo);
+    return svg_line(l.place(chart, x / reach, y / std::pow(reach, slope)),
+                    l.place(chart, x * reach, y * std::pow(reach, slope)),
+                    "class=\"guide\" stroke=\"#4a505a\" stroke-dasharray=\"2 5\"");
 }
 
 std::string mark_lines(const Chart& chart, const Layout& l) {
@@ -103,15 +102,15 @@ std::string line(const Chart& chart, const Layout& l, const std::vector<Point>& 
     for (const Point& point : points) {
         const Point2 at = l.place(chart, point.x, point.y);
         path += (path.empty() ? "" : " ") + coordinates(at);
-        if (points.size() <= most_dots || points.size() == 1) {
-            dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\" stroke=\"none\">{}</circle>\n", at.x,
-                                at.y, note_element(point.note));
+        if (points.size() <= most_dots) {
+            dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\">{}</circle>\n", at.x, at.y,
+                                note_element(point.note));
         }
     }
     return band(chart, l, points) +
            fmt::format("<polyline fill=\"none\" stroke-width=\"2.2\" stroke-linejoin=\"round\"{} points=\"{}\"/>\n",
                        dash_of(index), path) +
-           dots;
+           (dots.empty() ? "" : "<g stroke=\"none\">\n" + dots + "</g>\n");
 }
 
 std::string bars(const Chart& chart, const Layout& l, const std::vector<Point>& points) {
@@ -203,9 +202,8 @@ std::string chart_svg(const Chart& chart) {
         return svg_document(chart.width, layout.height, name, svg);
     }
     svg += frame(chart, layout);
-    if (chart.guide && is_logarithmic(chart.x.scale) && is_logarithmic(chart.y.scale)) {
-        svg += guide_line(chart, layout);
-    }
+    const bool guided = chart.guide && is_logarithmic(chart.x.scale) && is_logarithmic(chart.y.scale);
+    svg += guided ? guide_line(chart, layout) : "";
     svg += all_series(chart, layout) + mark_lines(chart, layout);
     for (std::size_t i = 0; i < layout.notes.size(); ++i) {
         svg += svg_label({16, layout.bottom + 62 + row_height * static_cast<double>(i)}, "start", layout.notes[i],

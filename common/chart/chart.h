@@ -46,12 +46,6 @@ struct Mark {
     std::string text;
 };
 
-/// A line that falls as x^slope through the middle of two logarithmic axes.
-struct Guide {
-    double slope = -1;
-    std::string text;
-};
-
 enum class Names { at_ends, above, none };  // where the names of the series stand
 
 struct Chart {
@@ -60,7 +54,7 @@ struct Chart {
     Axis y;
     std::vector<Series> series;
     std::vector<Mark> marks;
-    std::optional<Guide> guide;
+    std::optional<double> guide;  // dotted: y as x to this power, through the middle of two logarithmic axes
     std::string note;  // below the chart
     Names names = Names::at_ends;
     double width = 800;

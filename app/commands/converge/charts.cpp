@@ -28,12 +28,12 @@ struct Quantity {
 
 constexpr Quantity quantities[] = {
     {"relMSE", "relMSE", "relmse", true,
-     "Mean over the runs, with its 95 % band. The dotted line shows how the error of independent samples falls."},
+     "Mean over the runs, with its 95 % band. Dotted: 1/N, as the error of independent samples falls."},
     {"Trimmed", "relMSE without the worst 0.1 %", "relmse_trimmed", true,
      "Without the 0.1 % of the pixels with the largest error, most of which are fireflies: this is how most of the "
-     "picture looks. summary.csv holds the energy of these pixels. Bias is not judged by this error."},
+     "picture looks. summary.csv holds the energy of these pixels. Bias is not judged by this error. Dotted: 1/N."},
     {"MSE", "MSE", "mse", true,
-     "Mean over the runs, with its 95 % band. The dotted line shows how the error of independent samples falls."},
+     "Mean over the runs, with its 95 % band. Dotted: 1/N, as the error of independent samples falls."},
     {"Efficiency", "1 / (MSE · s)", "efficiency", false,
      "Constant if the error falls as 1/N. A method that is twice as efficient needs half the time for the same error."},
     {"Bias²", "relative bias²", "relative_bias_squared", false,
@@ -100,7 +100,7 @@ chart::Chart chart_of(const Json& summary, const Quantity& quantity, const Progr
         chart.series.push_back(series);
     }
     if (quantity.falls) {
-        chart.guide = chart::Guide{-1, "∝ 1/N"};
+        chart.guide = -1;
     }
     return chart;
 }
@@ -124,7 +124,7 @@ void write_charts(const Json& summary, const ConvergeState& state) {
         chart.title = fmt::format("{}, {}×{}, {} runs", summary.at("scene").get<std::string>(),
                                   summary.at("width").get<int>(), summary.at("height").get<int>(),
                                   summary.at("runs").get<int>());
-        chart.note = "Mean over the runs; bands: 95 %. Dotted: how the error of independent samples falls.";
+        chart.note = "Mean over the runs, with its 95 % band. Dotted: 1/N, as the error of independent samples falls.";
         write_file_atomically(state.path(name), chart::chart_svg(chart));
     };
     write("error-time.svg", progresses[0]);
