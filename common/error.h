@@ -6,8 +6,8 @@
 
 namespace diptych::core {
 
-/// Bad usage or bad input. `what()` is one line that names the file, the object in it and the reason. A setting has its
-/// name in the library between backticks, "`look_at`", and not its option: each front end may write its own word for it.
+/// Bad usage or bad input. `what()` is one line that names the file, the object in it and the reason. It names a setting
+/// by its name in the library, between backticks: "`look_at`". A front end writes its own word there, such as an option.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -2,7 +2,8 @@
 """What the library says in its messages: check_messages.py
 
 Callers of the library may have no command line. So no string literal and no comment outside of app/ may name an option
-("--fov", "-o"). A message names the setting, between backticks ("`fov`"), and app/console/option_names.cpp has the option of each.
+("--fov", "-o"). A message names the setting, between backticks ("`fov`"), and app/console/option_names.cpp has the
+option of each.
 Fails where a literal names an option, where a setting has no option in the table, and where the table has a setting
 that no literal names or an option that the program lacks.
 """
