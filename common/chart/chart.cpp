@@ -54,7 +54,7 @@ std::string frame(const Chart& chart, const Layout& l) {
     }
     svg += "</g>\n<g class=\"axis\" fill=\"#1d1f24\" font-weight=\"600\">\n";
     svg += svg_label({(l.left + l.right) / 2, l.bottom + 40}, "middle", chart.x.label);
-    svg += svg_label({16, l.top - 9}, "start", chart.y.label);
+    svg += svg_label({16, l.top - 14}, "start", chart.y.label);
     return svg + "</g>\n";
 }
 

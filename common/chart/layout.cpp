@@ -141,7 +141,7 @@ Layout layout_of(const Chart& chart) {
     const bool names_above = chart.names == Names::above && !chart.series.empty();
     const bool names_at_ends = chart.names == Names::at_ends && !chart.series.empty();
     const double head = names_above ? places_of_names(chart).back().y + 10 : chart.title.empty() ? 6 : title_height + 8;
-    layout.top = head + 24;  // the label of y has a row of its own
+    layout.top = head + 28;  // the label of y has a row of its own
     const double below = 24 + row_height + 6 + row_height * static_cast<double>(layout.notes.size());
     const double least = names_at_ends ? row_height * static_cast<double>(chart.series.size()) : 0;
     layout.height = std::max(chart.height, layout.top + below + least);
@@ -153,6 +153,7 @@ Layout layout_of(const Chart& chart) {
     layout.left = edge + widest(layout.y_ticks) + 8;
     layout.right = chart.width - (names_at_ends ? edge + 18 + widest_name(chart) : edge + 4);
     layout.x_ticks = x_ticks_within(chart, layout.x, layout.right - layout.left);
+    layout.right = std::min(layout.right, chart.width - widest(layout.x_ticks) / 2 - 4);  // a label may stand at the end
     return layout;
 }
 

@@ -244,6 +244,24 @@ TEST_CASE("A long title shrinks to the width of its chart", "[chart]") {
     CHECK(32 + text_width(chart.title, size) <= chart.width + 1);
 }
 
+TEST_CASE("A label at the end of an axis stays within the chart", "[chart]") {
+    Chart chart;
+    chart.names = Names::none;
+    chart.series = {{"method", {{0.000098, 1}, {0.000102, 2}}, Shape::line}};
+    for (const double high : {0.000102, 0.00010217, 12000000.0}) {
+        chart.x = {"roughness", Scale::linear, TickText::number, 0.000098, high};
+        const std::string svg = chart_svg(chart);
+        for (std::size_t at = svg.find("<text"); at != std::string::npos; at = svg.find("<text", at + 1)) {
+            const std::size_t begin = svg.find('>', at) + 1;
+            const double width = text_width(svg.substr(begin, svg.find('<', begin) - begin), 13);
+            const std::string element = svg.substr(at, begin - at);
+            const double share = holds(element, "\"middle\"") ? 0.5 : holds(element, "\"end\"") ? 1 : 0;
+            CHECK(attribute(element, "x") - share * width >= 0);
+            CHECK(attribute(element, "x") + (1 - share) * width <= chart.width);
+        }
+    }
+}
+
 TEST_CASE("A heat map holds its pictures and says what their colours mean", "[chart]") {
     HeatMap map;
     map.title = "a vs b";

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "chart/chart.h"
+#include "chart/number_text.h"
 #include "commands/stability/report.h"
 
 namespace diptych::core::app {
@@ -52,7 +53,7 @@ std::string plot_case(const StabilityReport& report, const MeasuredCase& measure
         chart.note = "Exact results lie on the lower edge.";
     }
     if (which.bound > 0) {
-        chart.marks = {{which.bound, fmt::format("bound {:g}", which.bound)}};
+        chart.marks = {{which.bound, "bound " + chart::figure_text(which.bound)}};
     }
     chart.names = chart::Names::above;
     chart.width = 640;
