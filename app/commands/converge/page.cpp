@@ -61,8 +61,8 @@ std::string charts_html(const nlohmann::ordered_json& summary) {
         chart.chart.width = 1100;
         chart.chart.height = 560;
         html += "<div class=\"wide\">" + chart_svg(chart.chart) + "</div>\n";
-        chart.chart.width = 400;
-        chart.chart.height = 340;
+        chart.chart.width = 350;
+        chart.chart.height = 320;
         chart.chart.names = chart::Names::none;
         html += "<div class=\"narrow\">" + chart_svg(chart.chart) + "</div>\n";
         html += "<figcaption class=\"note\">" + chart::xml_text(chart.note) + "</figcaption>\n</figure>\n";
