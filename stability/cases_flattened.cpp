@@ -1,6 +1,5 @@
 // Shapes that a transform flattens: matrices with no inverse, or none in single precision.
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
 #include "case_scenes.h"
 #include "references.h"
@@ -8,8 +7,6 @@
 namespace diptych::core::stability {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Below the middle of a square lamp as wide as it is high, which a scale of `thickness` makes of a slanted rectangle.
 /// Everything is turned, so that no axis of the matrix is one of the world.

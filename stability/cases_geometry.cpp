@@ -1,6 +1,5 @@
 // Frames, solid angles, needles.
 #include <algorithm>
-#include <numbers>
 
 #include "case_parts.h"
 #include "references.h"
@@ -8,8 +7,6 @@
 namespace diptych::core::stability {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Measured measure_frames(Backend& backend, double from_pole, Effort effort) {
     Uniforms u(5);

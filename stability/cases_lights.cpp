@@ -1,5 +1,4 @@
 // Lights in pictures: of any power, by the million, at the end of long paths.
-#include <numbers>
 
 #include "case_scenes.h"
 #include "references.h"
@@ -7,8 +6,6 @@
 namespace diptych::core::stability {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// A floor below a square lamp of that radiance, while in a closed room beside it another shines 10^12 times as bright.
 Measured measure_dim_lamp(Backend& backend, double radiance, Effort effort) {

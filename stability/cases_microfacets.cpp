@@ -1,5 +1,4 @@
 // GGX's D, visible normals, grazing angles, Blinn-Phong.
-#include <numbers>
 
 #include "case_parts.h"
 #include "references.h"
@@ -8,7 +7,6 @@ namespace diptych::core::stability {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double cosines[] = {1.0, 0.7, 0.3, 0.1, 0.01};
 
 int samples_of(Effort effort) {

@@ -1,5 +1,4 @@
 // Shading normals and normal maps.
-#include <numbers>
 
 #include "case_parts.h"
 #include "references.h"
@@ -7,8 +6,6 @@
 namespace diptych::core::stability {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 MeasuredInput mapped_input(const dvec3& o, const dvec3& smooth, const dvec3& mapped, double roughness,
                            double metallic) {

@@ -1,13 +1,10 @@
 #include "references.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace diptych::core::stability {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 double sine_squared(const glm::dvec3& w) {
     return w.x * w.x + w.y * w.y;

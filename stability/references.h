@@ -2,8 +2,11 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <numbers>
 
 namespace diptych::core::stability {
+
+inline constexpr double pi = std::numbers::pi;
 
 /// GGX (Walter et al. 2007, eq. 33) and normalised Blinn-Phong (eq. 30, exponent 2/alpha^2 - 2) of a half vector.
 double ggx_distribution(const glm::dvec3& h, double alpha);

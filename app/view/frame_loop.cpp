@@ -18,7 +18,7 @@ namespace diptych::core::app {
 
 namespace {
 
-constexpr std::array<Panel, 2> panels = {Panel::cpu, Panel::vulkan};
+constexpr std::array<Panel, 2> both_panels = {Panel::cpu, Panel::vulkan};
 // Single changes are answered in full at once; those that follow one another faster than this are a motion, and end so
 // long after the last.
 constexpr double burst_seconds = 0.2;
@@ -137,7 +137,7 @@ void FrameLoop::step(double now) {
     }
     guarded([&] { play(passed); });
     post(now);
-    for (const Panel panel : panels) {
+    for (const Panel panel : both_panels) {
         if (!has(panel)) {
             continue;
         }
@@ -171,7 +171,7 @@ void FrameLoop::post(double now) {
     posting_ = next;
     moving_ = moving;
     ++version_;
-    for (const Panel panel : panels) {
+    for (const Panel panel : both_panels) {
         if (has(panel)) {
             const bool rests = state_.paused || !shows(panel);
             post_to(panel, rests);

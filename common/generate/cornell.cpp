@@ -16,10 +16,10 @@ namespace {
 
 using Quad = std::array<glm::vec3, 4>;
 
-constexpr glm::vec3 white{0.7378F, 0.7361F, 0.7371F};
-constexpr glm::vec3 red{0.4718F, 0.0468F, 0.0489F};
-constexpr glm::vec3 green{0.0877F, 0.3986F, 0.0843F};
-constexpr glm::vec3 light{17.2F, 11.48F, 3.058F};
+constexpr glm::vec3 cornell_white{0.7378F, 0.7361F, 0.7371F};
+constexpr glm::vec3 cornell_red{0.4718F, 0.0468F, 0.0489F};
+constexpr glm::vec3 cornell_green{0.0877F, 0.3986F, 0.0843F};
+constexpr glm::vec3 cornell_light{17.2F, 11.48F, 3.058F};
 constexpr float light_reflectance = 0.78F;
 
 constexpr Quad floor_quad{{{552.8F, 0, 0}, {0, 0, 0}, {0, 0, 559.2F}, {549.6F, 0, 559.2F}}};
@@ -77,11 +77,11 @@ GeneratedScene generate_cornell(const GenerateOptions&) {
         material.specular = 0;
         return material;
     };
-    const int white_id = add_material(scene, lambertian("white", white));
-    const int red_id = add_material(scene, lambertian("red", red));
-    const int green_id = add_material(scene, lambertian("green", green));
+    const int white_id = add_material(scene, lambertian("white", cornell_white));
+    const int red_id = add_material(scene, lambertian("red", cornell_red));
+    const int green_id = add_material(scene, lambertian("green", cornell_green));
     Material lamp = lambertian("light", glm::vec3(light_reflectance));
-    lamp.emission = light;
+    lamp.emission = cornell_light;
     const int light_id = add_material(scene, lamp);
 
     add_object(scene, "floor", {quad_of(floor_quad, white_id)});

@@ -9,7 +9,7 @@
 namespace diptych::core {
 namespace {
 
-constexpr float width = 4, height = 3, depth = 4;  // metres; open towards +Z
+constexpr float room_width = 4, room_height = 3, room_depth = 4;  // metres; open towards +Z
 
 int add_node(Scene& scene, std::string name) {
     scene.nodes.emplace_back().name = std::move(name);
@@ -40,16 +40,16 @@ void add_room(Scene& scene) {
     const int red = add_material(scene, make_material("red", {0.6F, 0.06F, 0.05F}, 0, 1));
     const int green = add_material(scene, make_material("green", {0.1F, 0.45F, 0.1F}, 0, 1));
     const int glossy = add_material(scene, make_material("glossy", {0.8F, 0.6F, 0.3F}, 1, 0.25F));
-    const float x = width / 2, z = depth / 2;
+    const float x = room_width / 2, z = room_depth / 2;
     Primitive shell, left, right, block;
     shell.material = white;
     add_quad(shell, {-x, 0, z}, {x, 0, z}, {x, 0, -z}, {-x, 0, -z});
-    add_quad(shell, {-x, height, -z}, {x, height, -z}, {x, height, z}, {-x, height, z});
-    add_quad(shell, {-x, 0, -z}, {x, 0, -z}, {x, height, -z}, {-x, height, -z});
+    add_quad(shell, {-x, room_height, -z}, {x, room_height, -z}, {x, room_height, z}, {-x, room_height, z});
+    add_quad(shell, {-x, 0, -z}, {x, 0, -z}, {x, room_height, -z}, {-x, room_height, -z});
     left.material = red;
-    add_quad(left, {-x, 0, z}, {-x, 0, -z}, {-x, height, -z}, {-x, height, z});
+    add_quad(left, {-x, 0, z}, {-x, 0, -z}, {-x, room_height, -z}, {-x, room_height, z});
     right.material = green;
-    add_quad(right, {x, 0, -z}, {x, 0, z}, {x, height, z}, {x, height, -z});
+    add_quad(right, {x, 0, -z}, {x, 0, z}, {x, room_height, z}, {x, room_height, -z});
     block.material = glossy;
     add_box(block, {0.5F, 0.001F, -1.4F}, {1.3F, 0.9F, -0.6F});
     add_object(scene, "room", {shell, left, right});

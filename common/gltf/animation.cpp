@@ -9,9 +9,9 @@
 namespace diptych::core::gltf {
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
-Animation read_animation(Document& document, const Json& source, std::size_t index) {
+Animation read_animation(Document& document, const ParsedJson& source, std::size_t index) {
     Animation animation;
     if (source.is_object() && source.contains("name") && source["name"].is_string()) {
         animation.name = source["name"].get<std::string>();
@@ -21,7 +21,7 @@ Animation read_animation(Document& document, const Json& source, std::size_t ind
         fail(document, object + ".channels", "are missing or no array");
     }
     std::set<std::pair<AnimatedProperty, int>> targets;
-    const Json& channels = source["channels"];
+    const ParsedJson& channels = source["channels"];
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const std::string name = object + "." + label("channels", i);
         if (std::optional<Channel> channel = read_channel(document, source, channels[i], name, animation.warnings)) {

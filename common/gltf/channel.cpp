@@ -11,16 +11,16 @@
 namespace diptych::core::gltf {
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
-const Json* member(const Json& object, const char* key) {
+const ParsedJson* member(const ParsedJson& object, const char* key) {
     const auto found = object.is_object() ? object.find(key) : object.end();
     return found == object.end() ? nullptr : &*found;
 }
 
-int index_member(const Document& document, const Json& object, const char* key, std::size_t size, const char* table,
+int index_member(const Document& document, const ParsedJson& object, const char* key, std::size_t size, const char* table,
                  const std::string& name) {
-    const Json* value = member(object, key);
+    const ParsedJson* value = member(object, key);
     if (value == nullptr || !value->is_number_unsigned()) {
         fail(document, name + "." + key, "is missing or no index");
     }
@@ -50,10 +50,10 @@ std::optional<int> pointer_index(std::string_view pointer, std::string_view tabl
 }
 
 // KHR_animation_pointer, as far as light is concerned.
-std::optional<Target> pointer_target(Document& document, const Json& target, const std::string& object) {
-    const Json* extensions = member(target, "extensions");
-    const Json* extension = extensions != nullptr ? member(*extensions, "KHR_animation_pointer") : nullptr;
-    const Json* pointer = extension != nullptr ? member(*extension, "pointer") : nullptr;
+std::optional<Target> pointer_target(Document& document, const ParsedJson& target, const std::string& object) {
+    const ParsedJson* extensions = member(target, "extensions");
+    const ParsedJson* extension = extensions != nullptr ? member(*extensions, "KHR_animation_pointer") : nullptr;
+    const ParsedJson* pointer = extension != nullptr ? member(*extension, "pointer") : nullptr;
     if (pointer == nullptr || !pointer->is_string()) {
         fail(document, object + ".target", "has the path 'pointer', but KHR_animation_pointer names none");
     }
@@ -84,7 +84,7 @@ std::optional<Target> pointer_target(Document& document, const Json& target, con
     return std::nullopt;
 }
 
-std::optional<Target> node_target(Document& document, const Json& target, const std::string& path,
+std::optional<Target> node_target(Document& document, const ParsedJson& target, const std::string& path,
                                   const std::string& object, Warnings& warnings) {
     AnimatedProperty property{};
     if (path == "translation") {
@@ -112,10 +112,10 @@ std::optional<Target> node_target(Document& document, const Json& target, const 
     return Target{property, node};
 }
 
-std::optional<Target> read_target(Document& document, const Json& channel, const std::string& object,
+std::optional<Target> read_target(Document& document, const ParsedJson& channel, const std::string& object,
                                   Warnings& warnings) {
-    const Json* target = member(channel, "target");
-    const Json* path = target != nullptr ? member(*target, "path") : nullptr;
+    const ParsedJson* target = member(channel, "target");
+    const ParsedJson* path = target != nullptr ? member(*target, "path") : nullptr;
     if (path == nullptr || !path->is_string()) {
         fail(document, object + ".target.path", "is missing");
     }
@@ -125,9 +125,9 @@ std::optional<Target> read_target(Document& document, const Json& channel, const
 }
 
 // What is unknown is taken for what the number of values allows: splines have three a key.
-Interpolation read_interpolation(const Document& document, const Json& sampler, bool three_values_a_key,
+Interpolation read_interpolation(const Document& document, const ParsedJson& sampler, bool three_values_a_key,
                                  const std::string& object, Warnings& warnings) {
-    const Json* value = member(sampler, "interpolation");
+    const ParsedJson* value = member(sampler, "interpolation");
     if (value == nullptr || *value == "LINEAR") {
         return Interpolation::linear;
     }
@@ -206,9 +206,9 @@ std::string problem_of(const Channel& channel) {
 
 }  // namespace
 
-std::optional<Channel> read_channel(Document& document, const Json& animation, const Json& channel,
+std::optional<Channel> read_channel(Document& document, const ParsedJson& animation, const ParsedJson& channel,
                                     const std::string& object, Warnings& warnings) {
-    const Json* samplers = member(animation, "samplers");
+    const ParsedJson* samplers = member(animation, "samplers");
     const int index =
         index_member(document, channel, "sampler", samplers != nullptr ? samplers->size() : 0, "samplers", object);
     const std::optional<Target> target = read_target(document, channel, object, warnings);
@@ -218,7 +218,7 @@ std::optional<Channel> read_channel(Document& document, const Json& animation, c
     if (!samplers->is_array()) {
         fail(document, object, "the animation's samplers are no array");
     }
-    const Json& sampler = (*samplers)[static_cast<std::size_t>(index)];
+    const ParsedJson& sampler = (*samplers)[static_cast<std::size_t>(index)];
     const std::string name = object + ".samplers[" + std::to_string(index) + "]";
     const std::size_t accessors = document.model.accessors.size();
     Channel out;

@@ -12,7 +12,7 @@
 namespace diptych::core::gltf {
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
 // Far deeper than any glTF, and shallow enough for a parser that recurses.
 constexpr int max_json_depth = 128;
@@ -36,25 +36,25 @@ std::string one_line(std::string text) {
     return text;
 }
 
-Json parse_json(const Document& document, std::string_view text) {
-    const Json::parser_callback_t limit_depth = [&](int depth, Json::parse_event_t, Json&) {
+ParsedJson parse_json(const Document& document, std::string_view text) {
+    const ParsedJson::parser_callback_t limit_depth = [&](int depth, ParsedJson::parse_event_t, ParsedJson&) {
         if (depth > max_json_depth) {
             fail(document, "JSON", "nested deeper than " + std::to_string(max_json_depth) + " levels");
         }
         return true;
     };
     try {
-        Json root = Json::parse(text.begin(), text.end(), limit_depth);
+        ParsedJson root = ParsedJson::parse(text.begin(), text.end(), limit_depth);
         if (!root.is_object()) {
             fail(document, "JSON", "the root is not an object");
         }
         return root;
-    } catch (const Json::exception& error) {
+    } catch (const ParsedJson::exception& error) {
         fail(document, "JSON", one_line(error.what()));
     }
 }
 
-void check_version(const Document& document, const Json& root) {
+void check_version(const Document& document, const ParsedJson& root) {
     const auto asset = root.find("asset");
     if (asset == root.end() || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string()) {
         fail(document, "asset.version", "is missing");
@@ -69,18 +69,18 @@ void check_version(const Document& document, const Json& root) {
     }
 }
 
-Json take_array(Json& root, const char* table) {
+ParsedJson take_array(ParsedJson& root, const char* table) {
     const auto found = root.find(table);
     if (found == root.end()) {
-        return Json::array();
+        return ParsedJson::array();
     }
-    Json taken = std::move(*found);
+    ParsedJson taken = std::move(*found);
     root.erase(found);
-    return taken.is_array() ? taken : Json::array();
+    return taken.is_array() ? taken : ParsedJson::array();
 }
 
 // A non-negative integer of a JSON object.
-std::optional<std::uint64_t> unsigned_member(const Json& object, const char* key) {
+std::optional<std::uint64_t> unsigned_member(const ParsedJson& object, const char* key) {
     const auto found = object.find(key);
     if (found == object.end() || !found->is_number_unsigned()) {
         return std::nullopt;
@@ -88,14 +88,14 @@ std::optional<std::uint64_t> unsigned_member(const Json& object, const char* key
     return found->get<std::uint64_t>();
 }
 
-std::string string_member(const Json& object, const char* key) {
+std::string string_member(const ParsedJson& object, const char* key) {
     const auto found = object.find(key);
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-void read_buffers(Document& document, const Json& buffers, std::optional<Bytes> binary) {
+void read_buffers(Document& document, const ParsedJson& buffers, std::optional<Bytes> binary) {
     for (std::size_t i = 0; i < buffers.size(); ++i) {
-        const Json& entry = buffers[i];
+        const ParsedJson& entry = buffers[i];
         const std::string object = label("buffers", i, entry.is_object() ? string_member(entry, "name") : "");
         if (!entry.is_object()) {
             fail(document, object, "is not an object");
@@ -145,8 +145,8 @@ Bytes view_bytes(const Document& document, std::uint64_t index) {
     return {begin, begin + static_cast<std::ptrdiff_t>(view.byteLength)};
 }
 
-void read_images(Document& document, const Json& images) {
-    for (const Json& entry : images) {
+void read_images(Document& document, const ParsedJson& images) {
+    for (const ParsedJson& entry : images) {
         EncodedImage image;
         try {
             if (!entry.is_object()) {
@@ -171,10 +171,10 @@ void read_images(Document& document, const Json& images) {
     }
 }
 
-std::vector<std::string> strings_of(const Json& root, const char* key) {
+std::vector<std::string> strings_of(const ParsedJson& root, const char* key) {
     std::vector<std::string> strings;
     if (const auto found = root.find(key); found != root.end() && found->is_array()) {
-        for (const Json& entry : *found) {
+        for (const ParsedJson& entry : *found) {
             if (entry.is_string()) {
                 strings.push_back(one_line(entry.get<std::string>()));
             }
@@ -184,17 +184,17 @@ std::vector<std::string> strings_of(const Json& root, const char* key) {
 }
 
 // Whether every texture of KHR_texture_basisu, which is not supported, has another image to fall back on.
-bool textures_have_fallbacks(const Json& root) {
+bool textures_have_fallbacks(const ParsedJson& root) {
     const auto textures = root.find("textures");
     return textures == root.end() || !textures->is_array() ||
-           std::all_of(textures->begin(), textures->end(), [](const Json& texture) {
-               const Json extensions = texture.is_object() ? texture.value("extensions", Json()) : Json();
+           std::all_of(textures->begin(), textures->end(), [](const ParsedJson& texture) {
+               const ParsedJson extensions = texture.is_object() ? texture.value("extensions", ParsedJson()) : ParsedJson();
                return !extensions.is_object() || !extensions.contains("KHR_texture_basisu") ||
                       texture.contains("source") || extensions.contains("EXT_texture_webp");
            });
 }
 
-void check_extensions(Document& document, const Json& root, const std::vector<std::string>& ignored) {
+void check_extensions(Document& document, const ParsedJson& root, const std::vector<std::string>& ignored) {
     const std::vector<std::string> required = strings_of(root, "extensionsRequired");
     for (const std::string& extension : required) {
         if (contains(supported_extensions, extension)) {
@@ -292,12 +292,12 @@ Document read_document(const std::filesystem::path& path, const GltfOptions& opt
     } catch (const Error& error) {
         throw Error(document.file + ": " + error.what());
     }
-    Json root = parse_json(document, chunks.json);
+    ParsedJson root = parse_json(document, chunks.json);
     check_version(document, root);
     check_extensions(document, root, options.ignored_extensions);
     check_types(document, root);
-    const Json buffers = take_array(root, "buffers");
-    const Json images = take_array(root, "images");
+    const ParsedJson buffers = take_array(root, "buffers");
+    const ParsedJson images = take_array(root, "images");
     document.animations = take_array(root, "animations");
     root.erase("extras");
 

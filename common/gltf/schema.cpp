@@ -10,7 +10,7 @@
 namespace diptych::core::gltf {
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
 enum class Type { index, size, integer, number, boolean, string, object };
 
@@ -120,7 +120,7 @@ constexpr Member members[] = {
 #undef LIGHT
 
 // What is wrong with the value; empty where nothing is.
-std::string problem_of(const Json& value, Type type) {
+std::string problem_of(const ParsedJson& value, Type type) {
     constexpr std::int64_t last_index = std::numeric_limits<std::int32_t>::max();
     constexpr double largest = std::numeric_limits<float>::max();
     const bool whole = value.is_number_integer();
@@ -151,7 +151,7 @@ public:
     explicit Checker(const Document& document) : document_(document) {}
 
     /// Checks what lies at `path` from `value` on, which is at `pointer` itself.
-    void check(Json& value, std::string_view path, Type type, const std::string& pointer) const {
+    void check(ParsedJson& value, std::string_view path, Type type, const std::string& pointer) const {
         if (path.empty()) {
             check_value(value, type, pointer);
         } else if (path.substr(0, 2) == "[]") {
@@ -176,21 +176,21 @@ public:
     }
 
 private:
-    void check_value(Json& value, Type type, const std::string& pointer) const {
+    void check_value(ParsedJson& value, Type type, const std::string& pointer) const {
         const bool integral = type == Type::index || type == Type::size || type == Type::integer;
         if (integral && value.is_number_float()) {
             const double number = value.get<double>();
             if (number == std::floor(number) && std::abs(number) < 9007199254740992.0) {
-                value = number < 0 ? Json(static_cast<std::int64_t>(number)) : Json(static_cast<std::uint64_t>(number));
+                value = number < 0 ? ParsedJson(static_cast<std::int64_t>(number)) : ParsedJson(static_cast<std::uint64_t>(number));
             }
         }
         const std::string problem = problem_of(value, type);
         require(problem.empty(), value, problem, pointer);
     }
 
-    void require(bool holds, const Json& value, const std::string& problem, const std::string& pointer) const {
+    void require(bool holds, const ParsedJson& value, const std::string& problem, const std::string& pointer) const {
         if (!holds) {
-            const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+            const std::string text = value.dump(-1, ' ', false, ParsedJson::error_handler_t::replace);
             fail(document_, pointer, problem + ": " + (text.size() > 40 ? text.substr(0, 40) + "…" : text));
         }
     }
@@ -200,7 +200,7 @@ private:
 
 }  // namespace
 
-void check_types(const Document& document, Json& root) {
+void check_types(const Document& document, ParsedJson& root) {
     const Checker checker(document);
     for (const Member& member : members) {
         checker.check(root, member.path, member.type, "");

@@ -11,18 +11,18 @@
 namespace diptych::core {
 namespace {
 
-using Rgb = std::array<float, 3>;
+using PixelColor = std::array<float, 3>;
 
-#define MAGMA_ENTRY(r, g, b) Rgb{r, g, b},
+#define MAGMA_ENTRY(r, g, b) PixelColor{r, g, b},
 constexpr std::array magma = {MAGMA_ENTRIES(MAGMA_ENTRY)};
 #undef MAGMA_ENTRY
-constexpr Rgb nonfinite_color = {0.0f, 1.0f, 1.0f};
+constexpr PixelColor nonfinite_color = {0.0f, 1.0f, 1.0f};
 
-Rgb magma_at(float t) {
+PixelColor magma_at(float t) {
     const float position = t * static_cast<float>(magma.size() - 1);
     const size_t low = std::min(static_cast<size_t>(position), magma.size() - 2);
     const float weight = position - static_cast<float>(low);
-    Rgb color;
+    PixelColor color;
     for (size_t channel = 0; channel < 3; ++channel)
         color[channel] = magma[low][channel] * (1.0f - weight) + magma[low + 1][channel] * weight;
     return color;
@@ -55,7 +55,7 @@ Image heatmap(const Image& scalar, float lo, float hi) {
     Image result = make_image(scalar.width, scalar.height, 3);
     for (size_t pixel = 0; pixel < scalar.data.size(); ++pixel) {
         const float value = scalar.data[pixel];
-        const Rgb color =
+        const PixelColor color =
             std::isfinite(value) ? magma_at(std::clamp((value - lo) / (hi - lo), 0.0f, 1.0f)) : nonfinite_color;
         std::copy(color.begin(), color.end(), result.data.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
     }

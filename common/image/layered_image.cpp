@@ -12,14 +12,14 @@ namespace {
 
 constexpr const char* metadata_prefix = "diptych:";
 
-struct Layer {
+struct OptionalLayer {
     const char* name;
     std::optional<Image> LayeredImage::*image;
     std::vector<std::string> channels;
 };
 
-const std::array<Layer, 4>& optional_layers() {
-    static const std::array<Layer, 4> layers = {{
+const std::array<OptionalLayer, 4>& optional_layers() {
+    static const std::array<OptionalLayer, 4> layers = {{
         {"standard error", &LayeredImage::standard_error, {"stderr.R", "stderr.G", "stderr.B"}},
         {"albedo", &LayeredImage::albedo, {"albedo.R", "albedo.G", "albedo.B"}},
         {"normal", &LayeredImage::normal, {"normal.X", "normal.Y", "normal.Z"}},
@@ -80,7 +80,7 @@ void write_exr(const std::filesystem::path& path, const LayeredImage& layers) {
                         shape_text(expected));
     };
     require("colour", layers.color, color_channels.size());
-    for (const Layer& layer : optional_layers()) {
+    for (const OptionalLayer& layer : optional_layers()) {
         const std::optional<Image>& image = layers.*layer.image;
         if (!image)
             continue;
@@ -123,13 +123,13 @@ Image linear_color(const RawImage& raw) {
 LayeredImage read_image(const std::filesystem::path& path, const std::string& layer) {
     std::vector<std::string> beside;
     if (layer.empty())
-        for (const Layer& optional_layer : optional_layers())
+        for (const OptionalLayer& optional_layer : optional_layers())
             beside.insert(beside.end(), optional_layer.channels.begin(), optional_layer.channels.end());
     const RawImage raw = read_raw(path, layer, beside);
     LayeredImage layers;
     layers.color = linear_color(raw);
     if (layer.empty())
-        for (const Layer& optional_layer : optional_layers())
+        for (const OptionalLayer& optional_layer : optional_layers())
             layers.*optional_layer.image = extract(raw, optional_layer.channels);
     const std::string prefix = metadata_prefix;
     for (const auto& [name, value] : raw.attributes)

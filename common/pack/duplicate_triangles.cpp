@@ -12,20 +12,20 @@
 namespace diptych::core {
 namespace {
 
-using Corners = std::array<glm::vec3, 3>;
+using TurnedCorners = std::array<glm::vec3, 3>;
 
-bool comes_before(const glm::vec3& a, const glm::vec3& b) {
+bool is_before(const glm::vec3& a, const glm::vec3& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
 /// Vertices from the least on, so that it does not matter which is named first. Adding 0 makes -0 a 0.
-Corners cyclic(const Primitive& primitive, const glm::uvec3& t) {
-    Corners c = {primitive.positions[t.x] + 0.0F, primitive.positions[t.y] + 0.0F, primitive.positions[t.z] + 0.0F};
-    std::rotate(c.begin(), std::min_element(c.begin(), c.end(), comes_before), c.end());
+TurnedCorners cyclic(const Primitive& primitive, const glm::uvec3& t) {
+    TurnedCorners c = {primitive.positions[t.x] + 0.0F, primitive.positions[t.y] + 0.0F, primitive.positions[t.z] + 0.0F};
+    std::rotate(c.begin(), std::min_element(c.begin(), c.end(), is_before), c.end());
     return c;
 }
 
-std::uint64_t hash(const Corners& corners) {
+std::uint64_t hash(const TurnedCorners& corners) {
     std::uint64_t h = 0x9e3779b97f4a7c15U;
     for (const glm::vec3& corner : corners) {
         for (int i = 0; i < 3; ++i) {
@@ -65,7 +65,7 @@ public:
     template <typename Repeats>
     void each_repeat(const Repeats& repeats) {
         for (std::size_t id = 0; !slots_.empty() && id < count_; ++id) {
-            const Corners corners = corners_of(id);
+            const TurnedCorners corners = corners_of(id);
             const std::uint64_t h = hash(corners);
             std::size_t slot = h & (slots_.size() - 1);
             while (slots_[slot].next_id != 0 &&
@@ -98,7 +98,7 @@ private:
         std::uint32_t next_id = 0;  // 0: empty
     };
 
-    Corners corners_of(std::size_t id) const {
+    TurnedCorners corners_of(std::size_t id) const {
         const TriangleId t = find(id);
         const Primitive& primitive = scene_.meshes[t.mesh].primitives[t.primitive];
         return cyclic(primitive, primitive.triangles[t.triangle]);

@@ -9,10 +9,6 @@
 namespace diptych::core {
 namespace {
 
-double luminance(const glm::dvec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}
-
 float largest(const glm::vec3& c) {
     return std::max({c.x, c.y, c.z});
 }

@@ -17,10 +17,6 @@ constexpr double pi = std::numbers::pi;
 /// starved.
 constexpr double defensive_share = 0.05;
 
-double luminance(const glm::dvec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}
-
 glm::dvec3 world_position(const shared::Instance& i, const glm::vec3& p) {
     const glm::dvec4 q(p, 1);
     return {glm::dot(glm::dvec4(i.row_0), q), glm::dot(glm::dvec4(i.row_1), q), glm::dot(glm::dvec4(i.row_2), q)};

@@ -11,6 +11,11 @@ namespace diptych::core {
 /// Throws Error where copies of the view would not fill the film: a part of one would reuse pixels that are not there.
 void check_atlas(const RenderSettings& settings);
 
+/// Rec. 709 luminance, by which lights and texels of the environment are picked.
+inline double luminance(const glm::dvec3& c) {
+    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
+
 /// What the settings alone say of the constants.
 void pack_settings(const RenderSettings& settings, shared::RenderConstants& constants);
 

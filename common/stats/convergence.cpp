@@ -11,8 +11,6 @@ namespace diptych::core {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 std::vector<double> sums_over_runs(const ErrorTable& errors, std::size_t counts) {
     std::vector<double> sums(counts, 0);
     for (const std::vector<double>& run : errors) {
@@ -83,7 +81,7 @@ Interval mean_interval(std::span<const double> values, double confidence) {
 
 double median(std::vector<double> values) {
     if (values.empty()) {
-        return nan;
+        return std::numeric_limits<double>::quiet_NaN();
     }
     std::sort(values.begin(), values.end());
     const std::size_t half = values.size() / 2;

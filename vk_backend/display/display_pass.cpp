@@ -21,7 +21,7 @@ using Access = vk::AccessFlagBits;
 using Layout = vk::ImageLayout;
 using PipelineStage = vk::PipelineStageFlagBits;
 
-constexpr vk::Format format = vk::Format::eR8G8B8A8Unorm;
+constexpr vk::Format picture_format = vk::Format::eR8G8B8A8Unorm;
 constexpr vk::ImageSubresourceRange whole{
     .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1};
 constexpr std::uint32_t group_side = 16;  // of display.comp; each invocation counts one bin
@@ -191,14 +191,14 @@ DisplayPicture make_display_picture(const Gpu& gpu, const DisplayPass& pass, std
         picture.width = width;
         picture.height = height;
         picture.image = gpu.device.createImage({.imageType = vk::ImageType::e2D,
-                                                .format = format,
+                                                .format = picture_format,
                                                 .extent = {width, height, 1},
                                                 .mipLevels = 1,
                                                 .arrayLayers = 1,
                                                 .usage = Usage::eStorage | Usage::eSampled | Usage::eTransferSrc});
         picture.memory = allocate_image(gpu, picture.image);
         picture.view = gpu.device.createImageView(
-            {.image = *picture.image, .viewType = vk::ImageViewType::e2D, .format = format, .subresourceRange = whole});
+            {.image = *picture.image, .viewType = vk::ImageViewType::e2D, .format = picture_format, .subresourceRange = whole});
         using BufferUsage = vk::BufferUsageFlagBits;
         picture.histogram = make_buffer(
             gpu, "the picture's numbers", histogram_bytes,

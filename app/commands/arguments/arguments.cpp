@@ -17,7 +17,7 @@ namespace diptych::core::app {
 
 namespace {
 
-constexpr int largest_side = 32768;
+constexpr int largest_film_side = 32768;
 constexpr long long largest_area = 1LL << 28;
 
 [[noreturn]] void refuse_size(const std::string& text, const std::string& reason) {
@@ -28,8 +28,8 @@ int parse_side(const std::string& text, const std::string& side) {
     int value = 0;
     const char* end = side.data() + side.size();
     const auto [stop, failure] = std::from_chars(side.data(), end, value);
-    if (failure != std::errc() || stop != end || value < 1 || value > largest_side) {
-        refuse_size(text, fmt::format("wants WIDTHxHEIGHT or a height, each from 1 to {}", largest_side));
+    if (failure != std::errc() || stop != end || value < 1 || value > largest_film_side) {
+        refuse_size(text, fmt::format("wants WIDTHxHEIGHT or a height, each from 1 to {}", largest_film_side));
     }
     return value;
 }
@@ -209,7 +209,7 @@ void resolve_size(RenderArguments& arguments, const Camera& camera) {
     } else {
         settings.height = text.empty() ? RenderSettings{}.height : parse_side(text, text);
         const double width = std::round(settings.height * camera.aspect.value_or(1));
-        settings.width = static_cast<int>(std::clamp<double>(width, 1, largest_side));
+        settings.width = static_cast<int>(std::clamp<double>(width, 1, largest_film_side));
     }
     if (static_cast<long long>(settings.width) * settings.height > largest_area) {
         refuse_size(text, fmt::format("has more than {} pixels", largest_area));
