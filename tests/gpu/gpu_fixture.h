@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <random>
 #include <vector>
 
@@ -31,6 +32,12 @@ std::vector<shared::RecordedRay> random_rays(std::uint32_t seed, int count);
 /// Traces closest and any hits on the device.
 std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<shared::RecordedRay>& rays,
                                   const BuildLimits& limits = {}, const InstanceGroups& groups = {});
+
+/// Whether two arrays have the same bits.
+template <typename T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
 
 /// A generated scene, packed.
 PackedScene generated_scene(const std::string& name, const RenderSettings& settings);

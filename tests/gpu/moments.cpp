@@ -12,7 +12,7 @@
 namespace diptych::core::tests {
 namespace {
 
-RenderSettings small_settings(bool keeps_previous) {
+RenderSettings moment_settings(bool keeps_previous) {
     RenderSettings settings;
     settings.width = 24;
     settings.height = 18;
@@ -21,7 +21,7 @@ RenderSettings small_settings(bool keeps_previous) {
     return settings;
 }
 
-Film shoot(Renderer& renderer, std::uint32_t seed) {
+Film picture_of_seed(Renderer& renderer, std::uint32_t seed) {
     const std::atomic<bool> cancel = false;
     renderer.restart(seed);
     renderer.render(0, 4, cancel);
@@ -39,7 +39,7 @@ TEST_CASE("A renderer that moved has the bits of a new one at that moment, on th
     NEED_VULKAN();
     const Integrator integrator = GENERATE(Integrator::path, Integrator::ris);
     const bool keeps_previous = GENERATE(false, true);
-    RenderSettings settings = small_settings(keeps_previous);
+    RenderSettings settings = moment_settings(keeps_previous);
     settings.integrator = integrator;
     settings.resampling.near_share = 0;  // clusters of lights stay as they were when the scene was packed
     Scene scene = generate_scene("moving-light").scene;
@@ -48,17 +48,18 @@ TEST_CASE("A renderer that moved has the bits of a new one at that moment, on th
         material.roughness = 0.2F;
     }
     PackedScene packed = pack_scene(scene, settings);
-    PathRenderer moved(packed, test_options());
+    const std::shared_ptr<Gpu> gpu = open_test_gpu();
+    PathRenderer moved(gpu, packed);
     std::vector<Film> films;
     for (const double seconds : {0.5, 1.5, 3.0, 0.5}) {
         CAPTURE(seconds, keeps_previous, static_cast<int>(integrator));
         pose_scene(scene, seconds);
         pack_moment(scene, settings, packed);
         moved.move_to(packed);
-        films.push_back(shoot(moved, 7));
+        films.push_back(picture_of_seed(moved, 7));
         if (seconds > 1) {
-            PathRenderer fresh(pack_scene(scene, settings), test_options());
-            CHECK(same_pixels(films.back(), shoot(fresh, 7)));
+            PathRenderer fresh(gpu, pack_scene(scene, settings));
+            CHECK(same_pixels(films.back(), picture_of_seed(fresh, 7)));
         }
     }
     CHECK_FALSE(same_pixels(films[0], films[1]));
@@ -69,11 +70,11 @@ TEST_CASE("A renderer that moved has the bits of a new one at that moment, on th
 
 TEST_CASE("A renderer keeps film and seed when it moves, and refuses another scene, on the device") {
     NEED_VULKAN();
-    const RenderSettings settings = small_settings(false);
+    const RenderSettings settings = moment_settings(false);
     Scene scene = generate_scene("moving-light").scene;
     PackedScene packed = pack_scene(scene, settings);
     PathRenderer renderer(packed, test_options());
-    const Film before = shoot(renderer, 5);
+    const Film before = picture_of_seed(renderer, 5);
     pose_scene(scene, 1);
     pack_moment(scene, settings, packed);
     renderer.move_to(packed);
@@ -86,7 +87,7 @@ TEST_CASE("A renderer keeps film and seed when it moves, and refuses another sce
 
 TEST_CASE("What has no area at a moment is not there, on the device") {
     NEED_VULKAN();
-    RenderSettings settings = small_settings(false);
+    RenderSettings settings = moment_settings(false);
     settings.integrator = Integrator::brdf;
     Scene scene = generate_scene("moving-light").scene;
     // Flattened along its normal at 0.5 s, which changes nothing; without area at 1 s.
@@ -106,7 +107,7 @@ TEST_CASE("What has no area at a moment is not there, on the device") {
         pose_scene(scene, seconds);
         pack_moment(scene, settings, packed);
         renderer.move_to(packed);
-        const Film film = shoot(renderer, 1);
+        const Film film = picture_of_seed(renderer, 1);
         const shared::FilmPixel& middle = film.pixels[static_cast<std::size_t>(9 * 24 + 12)];
         return middle.sum.x > 1;
     };

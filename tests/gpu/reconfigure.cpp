@@ -12,7 +12,7 @@
 namespace diptych::core::tests {
 namespace {
 
-RenderSettings small_settings() {
+RenderSettings path_settings() {
     RenderSettings settings;
     settings.width = 24;
     settings.height = 18;
@@ -20,15 +20,10 @@ RenderSettings small_settings() {
     return settings;
 }
 
-Film shoot(Renderer& renderer) {
+Film picture_of(Renderer& renderer) {
     const std::atomic<bool> cancel = false;
     renderer.render(0, 3, cancel);
     return renderer.film();
-}
-
-template <typename T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 bool same_film(const Film& a, const Film& b) {
@@ -55,19 +50,18 @@ Environment gradient_sky(float blue) {
 
 /// Goes through the changes, each on top of those before, and compares with a new renderer after each.
 void walk(const std::string& name, const std::vector<Change>& changes) {
-    const std::shared_ptr<Gpu> gpu = open_test_gpu();
     Scene scene = generate_scene(name).scene;
-    RenderSettings settings = small_settings();
-    PathRenderer renderer(gpu, pack_scene(scene, settings));
-    Film before = shoot(renderer);
+    RenderSettings settings = path_settings();
+    PathRenderer renderer(open_test_gpu(), pack_scene(scene, settings));
+    Film before = picture_of(renderer);
     for (const Change& change : changes) {
         CAPTURE(name, change.name);
         change.apply(settings, scene);
         const PackedScene packed = pack_scene(scene, settings);
         renderer.reconfigure(packed);
-        const Film film = shoot(renderer);
-        PathRenderer fresh(gpu, packed);
-        CHECK(same_film(film, shoot(fresh)));
+        const Film film = picture_of(renderer);
+        PathRenderer fresh(open_test_gpu(), packed);  // which shares no pipeline with it
+        CHECK(same_film(film, picture_of(fresh)));
         CHECK(renderer.costs().bytes == fresh.costs().bytes);
         CHECK(renderer.costs().acceleration_bytes == fresh.costs().acceleration_bytes);
         CHECK_FALSE(same_film(film, before));
@@ -134,28 +128,50 @@ TEST_CASE("Textures and tangents stay when a renderer is reconfigured, on the de
 TEST_CASE("Settings met before compile nothing, on the device") {
     NEED_VULKAN();
     const Scene scene = generate_scene("cornell").scene;
-    RenderSettings path = small_settings();
+    RenderSettings path = path_settings();
     RenderSettings restir = path;
     restir.integrator = Integrator::restir;
     PathRenderer renderer(open_test_gpu(), pack_scene(scene, path));
     CHECK(renderer.pipelines_compiled() == 5);
-    const Film first = shoot(renderer);
+    const Film first = picture_of(renderer);
     renderer.reconfigure(pack_scene(scene, restir));
     const std::size_t compiled = renderer.pipelines_compiled();
     CHECK(compiled == 17);
-    const Film resampled = shoot(renderer);
+    const Film resampled = picture_of(renderer);
     renderer.reconfigure(pack_scene(scene, path));
-    CHECK(same_film(shoot(renderer), first));
+    CHECK(same_film(picture_of(renderer), first));
     renderer.reconfigure(pack_scene(scene, restir));
-    CHECK(same_film(shoot(renderer), resampled));
+    CHECK(same_film(picture_of(renderer), resampled));
     CHECK(renderer.pipelines_compiled() == compiled);
+    check_no_validation_messages();
+}
+
+TEST_CASE("A renderer compiles no pipeline that another one on its device has compiled, on the device") {
+    NEED_VULKAN();
+    const Scene scene = generate_scene("cornell").scene;
+    RenderSettings settings = path_settings();
+    const std::shared_ptr<Gpu> gpu = open_test_gpu();
+    const auto picture_and_count = [&](const std::shared_ptr<Gpu>& device) {
+        PathRenderer renderer(device, pack_scene(scene, settings));
+        const Film film = picture_of(renderer);
+        return std::pair(film, renderer.pipelines_compiled());
+    };
+    const auto [first, compiled] = picture_and_count(gpu);
+    CHECK(compiled == 5);
+    const auto [second, compiled_again] = picture_and_count(gpu);
+    CHECK(compiled_again == 0);
+    CHECK(same_film(second, first));
+    settings.standard_error = true;  // a feature that pipelines are specialised for
+    const auto [other, compiled_anew] = picture_and_count(gpu);
+    CHECK(compiled_anew == 5);
+    CHECK(same_film(other, picture_and_count(open_test_gpu()).first));
     check_no_validation_messages();
 }
 
 TEST_CASE("A renderer that was reconfigured replays its own paths and names its own passes, on the device") {
     NEED_VULKAN();
     const Scene scene = generate_scene("cornell").scene;
-    RenderSettings settings = small_settings();
+    RenderSettings settings = path_settings();
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
     PathRenderer renderer(gpu, pack_scene(scene, settings));
     const std::vector<shared::PathQuery> queries = {{.pixel = {3, 4}, .sample_index = 0},
@@ -171,7 +187,7 @@ TEST_CASE("A renderer that was reconfigured replays its own paths and names its 
     CHECK_FALSE(same_bytes(deep, shallow));
     settings.integrator = Integrator::ris;
     renderer.reconfigure(pack_scene(scene, settings));
-    shoot(renderer);
+    picture_of(renderer);
     const std::vector<PassTime> passes = renderer.pass_times();
     if (!passes.empty()) {
         REQUIRE(passes.size() == 4);
@@ -186,26 +202,26 @@ TEST_CASE("A renderer that was reconfigured replays its own paths and names its 
 TEST_CASE("A film that finds no room leaves a renderer that says so, and takes other settings, on the device") {
     NEED_VULKAN();
     const Scene scene = generate_scene("cornell").scene;
-    RenderSettings settings = small_settings();
+    RenderSettings settings = path_settings();
     PathRenderer renderer(open_test_gpu(), pack_scene(scene, settings));
-    const Film before = shoot(renderer);
+    const Film before = picture_of(renderer);
     settings.width = settings.height = 1 << 20;
     for (int round = 0; round < 2; ++round) {
         CHECK_THROWS_WITH(renderer.reconfigure(pack_scene(scene, settings)), Catch::Contains("more than it has"));
-        CHECK_THROWS_WITH(shoot(renderer), Catch::Contains("could not be taken over"));
+        CHECK_THROWS_WITH(picture_of(renderer), Catch::Contains("could not be taken over"));
         CHECK(renderer.device_film().film->width == 24);
     }
-    renderer.reconfigure(pack_scene(scene, small_settings()));
-    CHECK(same_film(shoot(renderer), before));
+    renderer.reconfigure(pack_scene(scene, path_settings()));
+    CHECK(same_film(picture_of(renderer), before));
     check_no_validation_messages();
 }
 
 TEST_CASE("A renderer refuses another scene's settings, and keeps its own, on the device") {
     NEED_VULKAN();
-    const RenderSettings settings = small_settings();
+    const RenderSettings settings = path_settings();
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
     PathRenderer renderer(gpu, generated_scene("cornell", settings));
-    const Film before = shoot(renderer);
+    const Film before = picture_of(renderer);
     CHECK_THROWS_WITH(renderer.reconfigure(generated_scene("courtyard", settings)), Catch::Contains("another scene"));
     CHECK(same_film(renderer.film(), before));
     check_no_validation_messages();

@@ -24,11 +24,6 @@ Film render_film(const PackedScene& packed, std::uint32_t samples, std::uint64_t
     return renderer.film();
 }
 
-template <typename T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
 double pixel_mean(const shared::FilmPixel& pixel) {
     const shared::vec3 sum = pixel.sum + pixel.compensation;
     return (static_cast<double>(sum.x) + sum.y + sum.z) / 3 / pixel.samples;

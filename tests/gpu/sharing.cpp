@@ -20,7 +20,7 @@ RenderSettings settings_of(Integrator integrator) {
     return settings;
 }
 
-std::vector<shared::FilmPixel> shoot(Renderer& renderer) {
+std::vector<shared::FilmPixel> shared_picture(Renderer& renderer) {
     const std::atomic<bool> cancel = false;
     renderer.restart(3);
     renderer.render(0, 6, cancel);
@@ -39,7 +39,7 @@ TEST_CASE("Two renderers and a display on one device, each in its own thread, do
     const PackedScene restir_scene = generated_scene("cornell", settings_of(Integrator::restir));
     const auto alone = [](const PackedScene& packed) {
         PathRenderer renderer(packed, test_options());
-        return shoot(renderer);
+        return shared_picture(renderer);
     };
     const std::vector<shared::FilmPixel> path_alone = alone(path_scene);
     const std::vector<shared::FilmPixel> restir_alone = alone(restir_scene);
@@ -47,13 +47,13 @@ TEST_CASE("Two renderers and a display on one device, each in its own thread, do
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
     PathRenderer path(gpu, path_scene, {.slice_budget = 200});
     PathRenderer restir(gpu, restir_scene, {.slice_budget = 200});
-    shoot(path);
-    shoot(restir);
+    shared_picture(path);
+    shared_picture(restir);
     std::atomic<int> working = 2;
     std::atomic<int> wrong = 0;
     const auto work = [&](PathRenderer& renderer, const std::vector<shared::FilmPixel>& expected) {
         for (int i = 0; i < 4; ++i) {
-            wrong += same_pixels(shoot(renderer), expected) ? 0 : 1;
+            wrong += same_pixels(shared_picture(renderer), expected) ? 0 : 1;
         }
         --working;
     };
@@ -83,7 +83,7 @@ TEST_CASE("A film that is looked at stays as it is while the next picture begins
     for (const Integrator integrator : {Integrator::path, Integrator::restir}) {
         PathRenderer renderer(open_test_gpu(), generated_scene("cornell", settings_of(integrator)));
         const std::atomic<bool> cancel = false;
-        const std::vector<shared::FilmPixel> first = shoot(renderer);
+        const std::vector<shared::FilmPixel> first = shared_picture(renderer);
         const FilmMemory* shown = renderer.device_film().film.get();
         renderer.restart(3);  // nobody looks: the same memory again
         CHECK(renderer.device_film().film.get() == shown);
@@ -98,7 +98,7 @@ TEST_CASE("A film that is looked at stays as it is while the next picture begins
         renderer.clear_film();
         CHECK(renderer.device_film().film != second.film);
         CHECK(renderer.device_film().film != looked_at.film);
-        CHECK(same_pixels(shoot(renderer), first));  // whichever film it lies in
+        CHECK(same_pixels(shared_picture(renderer), first));  // whichever film it lies in
     }
     check_no_validation_messages();
 }
@@ -109,9 +109,9 @@ TEST_CASE("Dispatches of another length give the same picture") {
     settings.width = settings.height = 96;
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
     PathRenderer renderer(gpu, generated_scene("cornell", settings));
-    const std::vector<shared::FilmPixel> expected = shoot(renderer);
+    const std::vector<shared::FilmPixel> expected = shared_picture(renderer);
     renderer.aim_dispatches(0.004);
-    CHECK(same_pixels(shoot(renderer), expected));
+    CHECK(same_pixels(shared_picture(renderer), expected));
     check_no_validation_messages();
 }
 

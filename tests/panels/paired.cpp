@@ -21,7 +21,7 @@ Pair make_pair_of(const Scene& scene, const RenderSettings& cpu, const RenderSet
     pair.packed_cpu = std::make_unique<PackedScene>(pack_scene(scene, cpu));
     pair.packed_vulkan = std::make_unique<PackedScene>(pack_scene(scene, vulkan));
     pair.cpu = make_cpu_renderer(*pair.packed_cpu, 2);
-    pair.vulkan = make_vulkan_renderer(*pair.packed_vulkan, {});
+    pair.vulkan = make_vulkan_renderer(panels_gpu(), *pair.packed_vulkan);
     return pair;
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("The paired gate sees another seed, and a light that is brighter on on
     for (shared::EmissiveTriangle& light : pair.packed_vulkan->emissive_triangles) {
         light.radiance *= 1.002F;
     }
-    pair.vulkan = make_vulkan_renderer(*pair.packed_vulkan, {});
+    pair.vulkan = make_vulkan_renderer(panels_gpu(), *pair.packed_vulkan);
     const PairedReport brighter = compare_paths(pair, settings, 8);
     CHECK(brighter.verdict == PairedVerdict::fail);
     CHECK(brighter.drifted > brighter.paths / 10);

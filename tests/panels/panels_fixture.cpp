@@ -5,10 +5,17 @@
 #include "scene/own_light.h"
 
 namespace diptych::core::tests {
+
+std::shared_ptr<Gpu> panels_gpu() {
+    static const std::shared_ptr<Gpu> gpu = open_device({});
+    return gpu;
+}
+
 Film render_vulkan(const PackedScene& packed, std::uint32_t spp) {
+    static const std::shared_ptr<Gpu> gpu = open_device({.device = "", .validation = has_validation_layer()});
     Film film;
     {
-        const auto renderer = make_vulkan_renderer(packed, {.device = "", .validation = has_validation_layer()});
+        const auto renderer = make_vulkan_renderer(gpu, packed);
         const std::atomic<bool> cancel{false};
         renderer->render(0, spp, cancel);
         film = renderer->film();

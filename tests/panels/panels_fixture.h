@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "../cpu/agreement_scenes.h"
 #include "image/metrics.h"
@@ -11,6 +12,10 @@
 #include "renderer/vulkan_renderer.h"
 
 namespace diptych::core::tests {
+
+/// The device, without validation and opened once: its renderers share the pipelines that they compile, and a driver
+/// that is unloaded and loaded again some thirty times in a process may refuse.
+std::shared_ptr<Gpu> panels_gpu();
 
 /// Renders on the device, under validation where its layer is installed, and fails on any message of it.
 Film render_vulkan(const PackedScene& packed, std::uint32_t spp);

@@ -4,8 +4,7 @@
 
 #include "../restir/chain_cases.h"
 #include "pose/pose.h"
-#include "vulkan_device.h"
-#include "renderer/vulkan_renderer.h"
+#include "panels_fixture.h"
 
 namespace diptych::core::tests {
 namespace {
@@ -51,7 +50,7 @@ bool alike(const shared::Reservoir& a, const shared::Reservoir& b) {
 
 void check_alike(const ChainCase& c, std::uint32_t frames) {
     const auto cpu = watch(c, frames, on_cpu);
-    const auto vulkan = watch(c, frames, [](const PackedScene& packed) { return make_vulkan_renderer(packed, {}); });
+    const auto vulkan = watch(c, frames, [](const PackedScene& packed) { return make_vulkan_renderer(panels_gpu(), packed); });
     const std::vector<std::string> passes = pass_names(pack_scene(c.scene, c.settings).constants);
     REQUIRE(cpu.size() == vulkan.size());
     for (std::size_t i = 0; i < cpu.size(); ++i) {

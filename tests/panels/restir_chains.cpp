@@ -1,16 +1,12 @@
 // The chains of tests/restir on the device.
 #include "../restir/moving_cases.h"
-#include "device/loader.h"
-#include "vulkan_device.h"
-#include "renderer/vulkan_renderer.h"
+#include "panels_fixture.h"
 
 namespace diptych::core::tests {
 namespace {
 
-/// A driver that is unloaded and loaded again some thirty times in a process may refuse: one device stays open.
 std::unique_ptr<Renderer> on_vulkan(const PackedScene& packed) {
-    static const VulkanInstance held = open_instance(false);
-    return make_vulkan_renderer(packed, {});
+    return make_vulkan_renderer(panels_gpu(), packed);
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ std::shared_ptr<Gpu> open_gpu(const GpuRequest& request) {
                                               .name = {},
                                               .memory = {},
                                               .ray_tracing = {},
-                                              .queue_mutex = {}});
+                                              .queue_mutex = {},
+                                              .pipelines_mutex = {}});
     Gpu& gpu = *opened;
     in_context("opening the device", [&] {
         gpu.physical = choose_device(gpu.vulkan.instance, request.device);

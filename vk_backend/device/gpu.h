@@ -19,6 +19,8 @@ struct GpuRequest {
     bool presents = false;                              // VK_KHR_swapchain, and a queue that draws
 };
 
+struct PipelineStore;  // pipelines/pipeline_store.h
+
 struct Gpu {
     VulkanInstance vulkan;
     vk::raii::PhysicalDevice physical = nullptr;
@@ -32,6 +34,8 @@ struct Gpu {
     double tick_seconds = 0;              // of a timestamp; 0 if the queue has none
     std::uint64_t tick_mask = 0;          // valid bits of a timestamp
     mutable std::mutex queue_mutex;       // held during submit, present and waiting for the queue
+    mutable std::mutex pipelines_mutex;   // held while the store of pipelines is read or written
+    mutable std::shared_ptr<PipelineStore> pipelines = {};  // compiled on this device
 };
 
 /// Opens the chosen device. Throws NoDevice or Error.

@@ -155,25 +155,25 @@ TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) cons
 }
 
 const TracePipeline& PathRenderer::pipeline(Spirv ray_generation) {
-    const auto key = std::tuple(ray_generation.data(), features_, !bottom_.groups.groups.empty());
-    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
-        return found->second;
-    }
-    return pipelines_.emplace(key, compile(ray_generation, false)).first->second;
+    const bool groups = !bottom_.groups.groups.empty();
+    return stored_pipeline(*gpu_, &PipelineStore::trace, {ray_generation.data(), features_, groups}, [&] {
+        ++pipelines_compiled_;
+        return compile(ray_generation, false);
+    });
 }
 
 const ComputePipeline& PathRenderer::compute_pipeline(Spirv shader) {
-    const auto key = std::tuple(shader.data(), features_);
-    if (const auto found = compute_pipelines_.find(key); found != compute_pipelines_.end()) {
-        return found->second;
-    }
-    const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
-    const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
     // Only hit shaders use groups, so the key of a compute pipeline omits them.
-    ComputePipeline made{.pipeline = make_compute_pipeline(*gpu_, layout_, cache, shader, pipeline_constants(false)),
-                         .uses = uses_of(shader)};
-    save_pipeline_cache(cache, cache_path);
-    return compute_pipelines_.emplace(key, std::move(made)).first->second;
+    return stored_pipeline(*gpu_, &PipelineStore::compute, {shader.data(), features_, false}, [&] {
+        ++pipelines_compiled_;
+        const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
+        const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
+        ComputePipeline made{
+            .pipeline = make_compute_pipeline(*gpu_, layout_, cache, shader, pipeline_constants(false)),
+            .uses = uses_of(shader)};
+        save_pipeline_cache(cache, cache_path);
+        return made;
+    });
 }
 
 void PathRenderer::choose_pipelines() {

@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "../../shaders/dispatch.h"
@@ -14,7 +13,7 @@
 #include "structures/emitter_structure.h"
 #include "memory/film_memory.h"
 #include "passes/path_waves.h"
-#include "pipelines/pipeline.h"
+#include "pipelines/pipeline_store.h"
 #include "device/pipeline_cache.h"
 #include "passes/resampling_passes.h"
 #include "memory/scene_memory.h"
@@ -64,8 +63,8 @@ public:
     DeviceFilm device_film() const;
     /// Sets the target device time of a dispatch. A user of the same queue waits for at most two dispatches.
     void aim_dispatches(double seconds);
-    /// Number of pipelines compiled since the renderer was created.
-    std::size_t pipelines_compiled() const { return pipelines_.size() + compute_pipelines_.size(); }
+    /// Pipelines that this renderer compiled. Those that others compiled on its device are not counted.
+    std::size_t pipelines_compiled() const { return pipelines_compiled_; }
 
 private:
     PipelineConstants pipeline_constants(bool record_rays) const;
@@ -114,10 +113,7 @@ private:
         films_;  // of the current size and layers; one is film_, others may be displayed
     std::shared_ptr<FilmMemory> film_;
     PipelineLayout layout_;
-    std::map<std::tuple<const std::uint32_t*, std::uint32_t, bool>, TracePipeline>
-        pipelines_;  // by ray generation shader, features and groups
-    std::map<std::tuple<const std::uint32_t*, std::uint32_t>, ComputePipeline>
-        compute_pipelines_;  // by shader and features
+    std::size_t pipelines_compiled_ = 0;
     WavePipelines wave_pipelines_;
     WaveMemory waves_;
     std::shared_ptr<ResamplingMemory> resampling_;
