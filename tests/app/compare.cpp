@@ -12,8 +12,8 @@ using namespace diptych::core::tests;
 
 namespace {
 
-std::string render(const TemporaryFolder& folder, const std::string& scene, const std::string& name,
-                   std::vector<std::string> more) {
+std::string render_picture(const TemporaryFolder& folder, const std::string& scene, const std::string& name,
+                           std::vector<std::string> more) {
     more.insert(more.begin(), {"render", scene, "-o", folder.file(name), "--size", "32"});
     const ProcessResult result = run_diptych(folder, more);
     INFO(result.err);
@@ -32,17 +32,13 @@ std::string scaled_copy(const TemporaryFolder& folder, const std::string& path, 
     return folder.file("scaled.exr");
 }
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("pictures of independent seeds differ by noise, a brighter one by more", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const std::string a = render(folder, scene, "a.exr", {"--spp", "16", "--seed", "1"});
-    const std::string b = render(folder, scene, "b.exr", {"--spp", "16", "--seed", "2"});
+    const std::string a = render_picture(folder, scene, "a.exr", {"--spp", "16", "--seed", "1"});
+    const std::string b = render_picture(folder, scene, "b.exr", {"--spp", "16", "--seed", "2"});
     const std::string figure = folder.file("figure.png");
     const ProcessResult result = run_diptych(folder, {"compare", a, b, "-o", figure, "--json", "--max-z", "4"});
     INFO(result.err);
@@ -75,8 +71,8 @@ TEST_CASE("pictures of independent seeds differ by noise, a brighter one by more
 TEST_CASE("pictures of one seed are told apart from independent ones", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const std::string a = render(folder, scene, "a.exr", {"--spp", "4", "--max-depth", "2"});
-    const std::string b = render(folder, scene, "b.exr", {"--spp", "4", "--max-depth", "3"});
+    const std::string a = render_picture(folder, scene, "a.exr", {"--spp", "4", "--max-depth", "2"});
+    const std::string b = render_picture(folder, scene, "b.exr", {"--spp", "4", "--max-depth", "3"});
     const ProcessResult result = run_diptych(folder, {"compare", a, b});
     CHECK(result.exit_code == 0);
     CHECK(contains(result.err, "z means nothing"));
@@ -93,8 +89,8 @@ TEST_CASE("pictures of one seed are told apart from independent ones", "[app]") 
 TEST_CASE("relMSE can be a check", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const std::string a = render(folder, scene, "a.exr", {"--spp", "4", "--seed", "1"});
-    const std::string b = render(folder, scene, "b.exr", {"--spp", "4", "--seed", "2"});
+    const std::string a = render_picture(folder, scene, "a.exr", {"--spp", "4", "--seed", "1"});
+    const std::string b = render_picture(folder, scene, "b.exr", {"--spp", "4", "--seed", "2"});
     CHECK(run_diptych(folder, {"compare", a, b, "--max-relmse", "10"}).exit_code == 0);
     const ProcessResult failed = run_diptych(folder, {"compare", a, b, "--max-relmse", "1e-9"});
     CHECK(failed.exit_code == 1);
@@ -104,9 +100,9 @@ TEST_CASE("relMSE can be a check", "[app]") {
 TEST_CASE("compare refuses what cannot be compared", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const std::string a = render(folder, scene, "a.exr", {"--spp", "1"});
-    const std::string bare = render(folder, scene, "bare.exr", {"--spp", "1", "--no-layers", "--seed", "3"});
-    const std::string small = render(folder, scene, "small.png", {"--spp", "1"});
+    const std::string a = render_picture(folder, scene, "a.exr", {"--spp", "1"});
+    const std::string bare = render_picture(folder, scene, "bare.exr", {"--spp", "1", "--no-layers", "--seed", "3"});
+    const std::string small = render_picture(folder, scene, "small.png", {"--spp", "1"});
     check_refusal(run_diptych(folder, {"compare", a, folder.file("none.exr")}), 2, {"none.exr"});
     check_refusal(run_diptych(folder, {"compare", a, a, "-o", folder.file("no/f.png")}), 2, {"no/f.png"});
     check_refusal(run_diptych(folder, {"compare", a, a, "-o", folder.file("f.exr")}), 2, {"f.exr", ".png"});

@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::vector<std::string> words_of(const std::string& line) {
+std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> words(1);
     for (const char c : line) {
         if (c == ',') {
@@ -39,10 +39,10 @@ std::vector<std::map<std::string, std::string>> read_csv(const std::string& path
     std::istringstream text(file_text(path));
     std::string line;
     std::getline(text, line);
-    const std::vector<std::string> names = words_of(line);
+    const std::vector<std::string> names = cells_of(line);
     std::vector<std::map<std::string, std::string>> rows;
     while (std::getline(text, line)) {
-        const std::vector<std::string> values = words_of(line);
+        const std::vector<std::string> values = cells_of(line);
         REQUIRE(values.size() == names.size());
         std::map<std::string, std::string> row;
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -55,7 +55,7 @@ std::vector<std::map<std::string, std::string>> read_csv(const std::string& path
 
 std::vector<std::string> columns_of(const std::string& path) {
     const std::string text = file_text(path);
-    return words_of(text.substr(0, text.find('\n')));
+    return cells_of(text.substr(0, text.find('\n')));
 }
 
 /// What a run found, without how long it took.
@@ -103,7 +103,7 @@ TEST_CASE("converge measures, plots and writes a page", "[app]") {
     const auto rows = read_csv(at("results.csv"));
     CHECK(rows.size() == 2 * 4 * 4);  // methods, runs, 1 2 4 8 samples
     CHECK(columns_of(at("results.csv")) ==
-          words_of("method,run,seed,spp,device_seconds,wall_seconds,mse,relmse,relmse_trimmed,"
+          cells_of("method,run,seed,spp,device_seconds,wall_seconds,mse,relmse,relmse_trimmed,"
                    "trimmed_energy,nonfinite,rays"));
     REQUIRE(json.at("methods").size() == 2);
     for (const Json& method : json.at("methods")) {

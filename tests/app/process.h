@@ -73,6 +73,12 @@ std::string generate_scene(const TemporaryFolder& folder, const std::string& nam
 /// A .gltf of one grey triangle in the plane z = 0: neither light nor camera.
 std::string write_bare_triangle(const TemporaryFolder& folder);
 
+bool contains(const std::string& text, const std::string& part);
+/// The words of a command line without quotes.
+std::vector<std::string> words_of(const std::string& command);
+/// `base` with `more` behind it.
+std::vector<std::string> with(std::vector<std::string> base, const std::vector<std::string>& more);
+
 std::string file_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, const std::string& text);
 

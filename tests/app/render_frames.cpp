@@ -12,8 +12,8 @@ using namespace diptych::core::tests;
 
 namespace {
 
-ProcessResult render(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
-                     const std::vector<std::string>& more) {
+ProcessResult render_sequence(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
+                              const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"render", scene, "-o", folder.file(output), "--size", "24x18", "--spp", "2"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProcessResult result = run_diptych(folder, arguments);
@@ -38,7 +38,7 @@ TEST_CASE("a sequence is one file a frame, and each repeats alone to the bit", "
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "moving-light");
     const ProcessResult result =
-        render(folder, scene, "walk.exr",
+        render_sequence(folder, scene, "walk.exr",
                {"--frames", "3", "--fps", "3", "--start", "0.9", "--camera", "moving", "--seed", "5", "--json"});
     const auto list = nlohmann::json::parse(result.out);
     REQUIRE(list.size() == 3);
@@ -71,25 +71,25 @@ TEST_CASE("a sequence is one file a frame, and each repeats alone to the bit", "
 TEST_CASE("the frame's number goes where # stands, and a time alone is one picture", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "moving-light");
-    render(folder, scene, "a.##.b.png", {"--frames", "2"});
+    render_sequence(folder, scene, "a.##.b.png", {"--frames", "2"});
     CHECK(std::filesystem::exists(folder.file("a.00.b.png")));
     CHECK(std::filesystem::exists(folder.file("a.01.b.png")));
-    const ProcessResult one = render(folder, scene, "one.png", {"--start", "1.5"});
+    const ProcessResult one = render_sequence(folder, scene, "one.png", {"--start", "1.5"});
     CHECK(std::filesystem::exists(folder.file("one.png")));
     CHECK(one.err.find("at rest") == std::string::npos);
-    CHECK(render(folder, scene, "rest.png", {}).err.find("at rest") != std::string::npos);
+    CHECK(render_sequence(folder, scene, "rest.png", {}).err.find("at rest") != std::string::npos);
 }
 
 TEST_CASE("an orbit turns the camera, by as much at a time whichever frame shows it", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    render(folder, scene, "around.exr", {"--frames", "3", "--fps", "2", "--orbit", "20"});
-    render(folder, scene, "still.exr", {});
+    render_sequence(folder, scene, "around.exr", {"--frames", "3", "--fps", "2", "--orbit", "20"});
+    render_sequence(folder, scene, "still.exr", {});
     const LayeredImage first = read_image(folder.file("around.0000.exr"));
     CHECK(first.color.data == read_image(folder.file("still.exr")).color.data);
     const LayeredImage third = read_image(folder.file("around.0002.exr"));
     CHECK(third.color.data != first.color.data);
-    render(folder, scene, "alone.exr", {"--start", "1", "--fps", "2", "--orbit", "20", "--seed", "2"});
+    render_sequence(folder, scene, "alone.exr", {"--start", "1", "--fps", "2", "--orbit", "20", "--seed", "2"});
     CHECK(read_image(folder.file("alone.exr")).color.data == third.color.data);
 }
 

@@ -32,8 +32,8 @@ std::string write_label(const TemporaryFolder& folder, float radiance) {
     return file;
 }
 
-ProcessResult render(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
-                     const std::vector<std::string>& more) {
+ProcessResult render_result(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
+                            const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"render", scene, "-o", folder.file(output)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProcessResult result = run_diptych(folder, arguments);
@@ -44,27 +44,18 @@ ProcessResult render(const TemporaryFolder& folder, const std::string& scene, co
 
 LayeredImage rendered(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
                       const std::vector<std::string>& more) {
-    render(folder, scene, output, more);
+    render_result(folder, scene, output, more);
     return read_image(folder.file(output));
 }
 
 /// The words of a command line without quotes in it.
-std::vector<std::string> words_of(const std::string& command) {
-    std::istringstream stream(command);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) {
-        words.push_back(word);
-    }
-    return words;
-}
-
 }  // namespace
 
 TEST_CASE("render --json has the fields that scripts rely on", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const ProcessResult result =
-        render(folder, scene, "out.exr", {"--spp", "4", "--size", "24x16", "--integrator", "direct", "--json"});
+        render_result(folder, scene, "out.exr", {"--spp", "4", "--size", "24x16", "--integrator", "direct", "--json"});
     const auto json = nlohmann::json::parse(result.out);
     CHECK(json.at("backend") == "cpu");
     CHECK_FALSE(json.at("device").get<std::string>().empty());
@@ -152,20 +143,20 @@ TEST_CASE("EXR has the layers, unless told otherwise, and PNG and HDR have the p
 TEST_CASE("a scene without light or camera is seen under a neutral sky, with a warning each", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = write_bare_triangle(folder);
-    const ProcessResult result = render(folder, scene, "out.exr", {"--spp", "1", "--size", "16"});
+    const ProcessResult result = render_result(folder, scene, "out.exr", {"--spp", "1", "--size", "16"});
     CHECK(result.err.find("warning: " + scene + ": the scene has no light") != std::string::npos);
     CHECK(result.err.find("warning: " + scene + ": the scene has no camera") != std::string::npos);
     const LayeredImage image = read_image(folder.file("out.exr"));
     CHECK(image.color.width == 16);
     CHECK(image.color.at(0, 0, 1) > 0);
-    const ProcessResult lit = render(folder, scene, "out.exr", {"--spp", "1", "--size", "16", "--env", "2,3,4"});
+    const ProcessResult lit = render_result(folder, scene, "out.exr", {"--spp", "1", "--size", "16", "--env", "2,3,4"});
     CHECK(lit.err.find("no light") == std::string::npos);
     const LayeredImage sky = read_image(folder.file("out.exr"));
     CHECK(sky.color.at(0, 0, 0) == 2);
     CHECK(sky.color.at(0, 0, 2) == 4);
-    render(folder, scene, "out.exr", {"--spp", "1", "--size", "16", "--env", "2,3,4", "--env-scale", "0.5"});
+    render_result(folder, scene, "out.exr", {"--spp", "1", "--size", "16", "--env", "2,3,4", "--env-scale", "0.5"});
     CHECK(read_image(folder.file("out.exr")).color.at(0, 0, 1) == 1.5F);
-    render(folder, scene, "out.exr", {"--spp", "1", "--size", "16", "--env", "0,0,0"});
+    render_result(folder, scene, "out.exr", {"--spp", "1", "--size", "16", "--env", "0,0,0"});
     CHECK(read_image(folder.file("out.exr")).color.at(0, 0, 0) == 0);
 }
 
@@ -175,7 +166,7 @@ TEST_CASE("a label does not switch the neutral sky off, and --env none does", "[
     const std::vector<std::string> small = {"--spp", "4", "--size", "16", "--max-depth", "2"};
     const auto shown = [&](std::vector<std::string> more, std::string& said) {
         more.insert(more.end(), small.begin(), small.end());
-        said = render(folder, scene, "out.exr", more).err;
+        said = render_result(folder, scene, "out.exr", more).err;
         return read_image(folder.file("out.exr"));
     };
     std::string said;
@@ -225,7 +216,7 @@ TEST_CASE("a render with --time ends on time", "[app][timed]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const double seconds = seconds_taken(1.5, [&] {
-        const ProcessResult result = render(folder, scene, "out.exr", {"--time", "1.5", "--size", "32", "--json"});
+        const ProcessResult result = render_result(folder, scene, "out.exr", {"--time", "1.5", "--size", "32", "--json"});
         const auto json = nlohmann::json::parse(result.out);
         CHECK(json.at("spp").get<int>() > 1);
         CHECK(json.at("interrupted") == false);

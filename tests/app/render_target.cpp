@@ -14,8 +14,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-ProcessResult render(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
-                     std::vector<std::string> more) {
+ProcessResult render_until(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
+                           std::vector<std::string> more) {
     std::vector<std::string> arguments = {"render", scene, "-o", folder.file(output), "--size", "24", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_diptych(folder, arguments);
@@ -27,14 +27,14 @@ TEST_CASE("a render with --target-error ends where the error is as small", "[app
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const std::vector<std::string> target = {"--target-error", "0.002", "--sampler", "independent"};
-    REQUIRE(render(folder, scene, "truth.exr", {"--spp", "1024", "--seed", "99"}).exit_code == 0);
+    REQUIRE(render_until(folder, scene, "truth.exr", {"--spp", "1024", "--seed", "99"}).exit_code == 0);
     const LayeredImage truth = read_image(folder.file("truth.exr"));
     double error = 0;
     Json json;
     for (const char* seed : {"0", "1", "2", "3"}) {
         std::vector<std::string> seeded = target;
         seeded.insert(seeded.end(), {"--seed", seed});
-        const ProcessResult result = render(folder, scene, "out.exr", seeded);
+        const ProcessResult result = render_until(folder, scene, "out.exr", seeded);
         INFO(result.err);
         REQUIRE(result.exit_code == 0);
         json = Json::parse(result.out);
@@ -48,8 +48,8 @@ TEST_CASE("a render with --target-error ends where the error is as small", "[app
     // The same seed stops at the same count, whatever the number of threads.
     std::vector<std::string> one_thread = target;
     one_thread.insert(one_thread.end(), {"--threads", "1", "--seed", "3"});
-    CHECK(Json::parse(render(folder, scene, "again.exr", one_thread).out).at("spp") == json.at("spp"));
-    const ProcessResult png = render(folder, scene, "out.png", {"--target-error", "0.05"});
+    CHECK(Json::parse(render_until(folder, scene, "again.exr", one_thread).out).at("spp") == json.at("spp"));
+    const ProcessResult png = render_until(folder, scene, "out.png", {"--target-error", "0.05"});
     REQUIRE(png.exit_code == 0);
     CHECK(Json::parse(png.out).at("command").get<std::string>().find("--no-layers") != std::string::npos);
 }
@@ -57,23 +57,23 @@ TEST_CASE("a render with --target-error ends where the error is as small", "[app
 TEST_CASE("an error target yields to other limits, and is refused where it means nothing", "[app][timed]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const auto json = Json::parse(render(folder, scene, "out.exr", {"--target-error", "1e-9", "--spp", "40"}).out);
+    const auto json = Json::parse(render_until(folder, scene, "out.exr", {"--target-error", "1e-9", "--spp", "40"}).out);
     CHECK(json.at("spp") == 40);
     CHECK(json.at("target_met") == false);
     const double seconds = seconds_taken(0.5, [&] {
-        return render(folder, scene, "out.exr", {"--target-error", "1e-9", "--time", "0.5"});
+        return render_until(folder, scene, "out.exr", {"--target-error", "1e-9", "--time", "0.5"});
     });
     CHECK(seconds == Approx(0.5).epsilon(0.05));
-    check_refusal(render(folder, scene, "out.exr", {"--target-error", "0.01", "--integrator", "restir"}), 2,
+    check_refusal(render_until(folder, scene, "out.exr", {"--target-error", "0.01", "--integrator", "restir"}), 2,
                   {"--target-error", "restir", "resampled together"});
-    check_refusal(render(folder, scene, "out.exr", {"--target-error", "0.01", "--integrator", "ris"}), 2,
+    check_refusal(render_until(folder, scene, "out.exr", {"--target-error", "0.01", "--integrator", "ris"}), 2,
                   {"--target-error", "ris"});
-    check_refusal(render(folder, scene, "out.exr", {"--target-error", "0.01", "--no-layers"}), 2,
+    check_refusal(render_until(folder, scene, "out.exr", {"--target-error", "0.01", "--no-layers"}), 2,
                   {"--no-layers", "standard errors"});
-    check_refusal(render(folder, scene, "out.exr", {"--target-error", "0.01", "--sampler", "hammersley"}), 2,
+    check_refusal(render_until(folder, scene, "out.exr", {"--target-error", "0.01", "--sampler", "hammersley"}), 2,
                   {"hammersley", "--spp"});
-    check_refusal(render(folder, scene, "out.exr", {"--target-error", "0"}), 2, {"--target-error"});
-    check_refusal(render(folder, scene, "out.exr", {"--target-error", "nan"}), 2, {"--target-error"});
+    check_refusal(render_until(folder, scene, "out.exr", {"--target-error", "0"}), 2, {"--target-error"});
+    check_refusal(render_until(folder, scene, "out.exr", {"--target-error", "nan"}), 2, {"--target-error"});
 }
 
 TEST_CASE("the progress line tells the time left until the error is met", "[app]") {

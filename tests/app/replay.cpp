@@ -7,14 +7,6 @@
 using namespace diptych::core;
 using namespace diptych::core::tests;
 
-namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-}  // namespace
-
 TEST_CASE("replay prints a path vertex by vertex, on the CPU alone", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");

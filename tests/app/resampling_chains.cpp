@@ -20,7 +20,7 @@ using namespace diptych::core::tests;
 
 namespace {
 
-constexpr double start = 0.9;
+constexpr double first_moment = 0.9;
 constexpr double fps = 10;
 
 std::unique_ptr<Renderer> make_renderer(const std::string& backend, const PackedScene& packed) {
@@ -54,7 +54,7 @@ std::vector<Image> chain_of(const std::string& file, const std::string& backend,
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
         renderer->clear_film();
         for (std::uint32_t i = 0; i < spp; ++i) {
-            pose_scene(scene, start + frame / fps);
+            pose_scene(scene, first_moment + frame / fps);
             pack_moment(scene, settings, packed);
             renderer->move_to(packed);
             renderer->render(frame * spp + i, 1, cancel);

@@ -4,14 +4,6 @@
 
 using namespace diptych::core::tests;
 
-namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-}  // namespace
-
 TEST_CASE("every command has help with examples", "[app]") {
     const TemporaryFolder folder;
     for (const std::string command : {"render", "compare", "info", "generate", "bench", "verify", "converge"}) {

@@ -11,10 +11,6 @@ using namespace diptych::core::tests;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 /// A quick verify on the CPU against itself.
 ProcessResult verify(const TemporaryFolder& folder, const std::string& scene, std::vector<std::string> more) {
     std::vector<std::string> arguments = {"verify", scene, "--backends", "cpu"};
@@ -23,11 +19,6 @@ ProcessResult verify(const TemporaryFolder& folder, const std::string& scene, st
 }
 
 const std::vector<std::string> small = {"--size", "32", "--runs", "8", "--spp", "8", "--max-depth", "3"};
-
-std::vector<std::string> with(std::vector<std::string> base, const std::vector<std::string>& more) {
-    base.insert(base.end(), more.begin(), more.end());
-    return base;
-}
 
 }  // namespace
 

@@ -16,19 +16,6 @@ using namespace diptych::core::tests;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-std::vector<std::string> words_of(const std::string& text) {
-    std::istringstream stream(text);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) {
-        words.push_back(word);
-    }
-    return words;
-}
-
 /// The largest difference between a picture's pixels and a film's means, relative to the brightest.
 double difference(const std::string& picture, const Film& film) {
     const Image read = read_image(picture).color;

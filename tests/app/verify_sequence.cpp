@@ -15,17 +15,12 @@ namespace {
 // The lamp switches on at 1 s (scenes/README.md), so frame 4 is the first that has it.
 const std::vector<std::string> walk = {"--size", "16", "--max-depth", "1", "--fps", "8"};
 
-std::vector<std::string> with(std::vector<std::string> base, const std::vector<std::string>& more) {
-    base.insert(base.end(), more.begin(), more.end());
-    return base;
-}
-
 std::vector<std::string> backends(const TemporaryFolder& folder) {
     const ProcessResult devices = run_diptych(folder, {"info", "--devices"});
     return devices.exit_code == 0 ? std::vector<std::string>{"cpu", "vulkan"} : std::vector<std::string>{"cpu"};
 }
 
-nlohmann::json verify(const TemporaryFolder& folder, const std::string& scene, const std::vector<std::string>& more) {
+nlohmann::json verify_walk(const TemporaryFolder& folder, const std::string& scene, const std::vector<std::string>& more) {
     const ProcessResult result =
         run_diptych(folder, with(with({"verify", scene, "--json", "--start", "0.5"}, walk), more));
     INFO(result.err);
@@ -76,7 +71,7 @@ TEST_CASE("verify judges the frames that render paints", "[app]") {
     const std::string scene = generate_scene(folder, "moving-light");
     for (const std::string& backend : backends(folder)) {
         INFO(backend);
-        const auto json = verify(folder, scene,
+        const auto json = verify_walk(folder, scene,
                                  {"--backends", backend, "--integrators", "restir", "--against", backend + "/path",
                                   "--runs", "2", "--spp", "2", "--frame", "5,3", "--seed", "11"});
         REQUIRE(json.at("pairs").size() == 2);
@@ -119,7 +114,7 @@ TEST_CASE("verify judges the frames that render paints", "[app]") {
 TEST_CASE("A chain in verify may have several samples a frame", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "moving-light");
-    const auto json = verify(folder, scene,
+    const auto json = verify_walk(folder, scene,
                              {"--backends", "cpu", "--integrators", "restir", "--against", "cpu/path", "--runs", "2",
                               "--spp", "3", "--frame-spp", "3", "--frame", "4"});
     std::vector<std::array<double, 3>> chains;
@@ -138,12 +133,12 @@ TEST_CASE("verify finds a bias that only a light switched on brings about", "[ap
     const std::vector<std::string> chains = {
         "--backends", "cpu", "--integrators", "restir", "--against", "cpu/path", "--runs", "16",
         "--spp",      "16",  "--against-spp", "64",     "--frame",   "0,5",      "-o",     folder.file("figures")};
-    const auto biased = verify(folder, scene, with(chains, {"--reuse-mis", "biased-1-over-m"}));
+    const auto biased = verify_walk(folder, scene, with(chains, {"--reuse-mis", "biased-1-over-m"}));
     CHECK(biased.at("verdict") == "FAIL");
     CHECK(biased.at("pairs")[1].at("verdict") == "FAIL");
     CHECK(biased.at("pairs")[1].at("ci95_percent")[1].get<double>() < 0);
     CHECK(std::string(biased.at("figures")[2]).find("cpu-restir-vs-cpu-path-frame-5-p.svg") != std::string::npos);
-    const auto unbiased = verify(folder, scene, chains);
+    const auto unbiased = verify_walk(folder, scene, chains);
     CHECK(unbiased.at("verdict") == "INCONCLUSIVE");  // too few samples for 0.1 %
     for (const auto& pair : unbiased.at("pairs")) {
         CHECK(pair.at("min_p").get<double>() > 1e-4);

@@ -16,16 +16,6 @@ using namespace diptych::core::tests;
 
 namespace {
 
-std::vector<std::string> words_of(const std::string& command) {
-    std::istringstream stream(command);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) {
-        words.push_back(word);
-    }
-    words.erase(words.begin());
-    return words;
-}
-
 /// Share of the values that differ by more than a thousandth: paths that rounding has parted.
 double parted(const Image& a, const Image& b) {
     REQUIRE(a.data.size() == b.data.size());
@@ -88,6 +78,7 @@ TEST_CASE("a view without a window times its frames and keeps the last", "[app]"
     const LayeredImage last = read_image(folder.file("last.exr"));
     CHECK(last.color.width == 48);
     std::vector<std::string> words = words_of(last.metadata.at("command"));
+    words.erase(words.begin());
     INFO(last.metadata.at("command"));
     CHECK(last.metadata.at("command").find("--eye ") != std::string::npos);
     const auto output = std::find(words.begin(), words.end(), "-o");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "generate/generate.h"
+#include "temporary_folder.h"
 
 #include <filesystem>
 #include <fstream>
@@ -12,20 +13,7 @@
 
 namespace diptych::core::generate_tests {
 
-struct TemporaryFolder {
-    std::filesystem::path path;
-
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "diptych-scenes-XXXXXX").string();
-        path = mkdtemp(name.data());
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-};
+using tests::TemporaryFolder;
 
 inline std::string file_bytes(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);

@@ -220,7 +220,7 @@ TEST_CASE("a generated scene survives being written and read", "[generate]") {
         for (const char* extension : {".gltf", ".glb"}) {
             INFO(generator.name << extension);
             const Scene scene = generate_scene(generator.name).scene;
-            const auto path = folder.path / (generator.name + std::string(extension));
+            const auto path = folder.path() / (generator.name + std::string(extension));
             write_gltf(scene, path);
             check_scene(scene, load_gltf(path));
         }
@@ -232,8 +232,8 @@ TEST_CASE("every field that glTF holds survives being written and read", "[gener
     for (const char* file : {"with space.gltf", "full.glb"}) {
         INFO(file);
         const Scene scene = full_scene();
-        write_gltf(scene, folder.path / file);
-        check_scene(scene, load_gltf(folder.path / file));
+        write_gltf(scene, folder.path() / file);
+        check_scene(scene, load_gltf(folder.path() / file));
     }
 }
 
@@ -252,8 +252,8 @@ TEST_CASE("primitives of more than 65535 vertices survive being written and read
             primitive.triangles.push_back({i, i + 1, i + 2});
         scene.meshes = {{"large", {primitive}}};
         scene.instances = {{"large", 0, glm::dmat4(1)}};
-        write_gltf(scene, folder.path / "large.glb");
-        const Scene back = load_gltf(folder.path / "large.glb");
+        write_gltf(scene, folder.path() / "large.glb");
+        const Scene back = load_gltf(folder.path() / "large.glb");
         const Primitive& read = back.meshes.at(0).primitives.at(0);
         CHECK(read.positions == primitive.positions);
         CHECK(read.triangles == primitive.triangles);

@@ -170,9 +170,9 @@ TEST_CASE("the committed scenes are what the generators write", "[generate]") {
     for (const SceneGenerator& generator : scene_generators()) {
         if (!is_small(generator.name))
             continue;
-        write_gltf(generate_scene(generator.name).scene, folder.path / (std::string(generator.name) + ".gltf"));
+        write_gltf(generate_scene(generator.name).scene, folder.path() / (std::string(generator.name) + ".gltf"));
     }
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
         INFO(entry.path().filename());
         const std::filesystem::path committed = sources / "scenes" / entry.path().filename();
         CHECK(std::filesystem::file_size(entry.path()) < 300'000);
@@ -214,12 +214,12 @@ TEST_CASE("generated files repeat to the byte", "[generate]") {
     for (const SceneGenerator& generator : scene_generators()) {
         INFO(generator.name);
         for (const char* file : {"first.glb", "second.glb"})
-            write_gltf(generate_scene(generator.name, options).scene, folder.path / file);
-        const std::string first = file_bytes(folder.path / "first.glb");
+            write_gltf(generate_scene(generator.name, options).scene, folder.path() / file);
+        const std::string first = file_bytes(folder.path() / "first.glb");
         CHECK(first.size() > 1000);
-        CHECK(first == file_bytes(folder.path / "second.glb"));
+        CHECK(first == file_bytes(folder.path() / "second.glb"));
     }
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path))
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
         CHECK(entry.path().extension() == ".glb");  // no temporary file stays behind
 }
 
@@ -228,7 +228,7 @@ TEST_CASE("generated files pass the Khronos validator", "[generate]") {
     std::string files;
     for (const SceneGenerator& generator : scene_generators()) {
         for (const char* extension : {".gltf", ".glb"}) {
-            const auto path = folder.path / (generator.name + std::string(extension));
+            const auto path = folder.path() / (generator.name + std::string(extension));
             write_gltf(generate_scene(generator.name).scene, path);
             files += " '" + path.string() + "'";
         }
@@ -241,8 +241,8 @@ TEST_CASE("generated files pass the Khronos validator", "[generate]") {
         SKIP_TEST("no node, or no npm package gltf-validator");
     CHECK(status == 0);
 
-    std::ofstream(folder.path / "broken.gltf") << R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 3}]})";
-    CHECK(validate("'" + (folder.path / "broken.gltf").string() + "'") == 1);
+    std::ofstream(folder.path() / "broken.gltf") << R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 3}]})";
+    CHECK(validate("'" + (folder.path() / "broken.gltf").string() + "'") == 1);
 }
 
 TEST_CASE("an unwritable or unknown file is refused", "[generate]") {

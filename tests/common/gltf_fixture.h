@@ -12,34 +12,15 @@
 #include <unistd.h>
 #include <vector>
 
+#include "gltf/import.h"
+#include "temporary_folder.h"
+
 namespace diptych::core::tests {
 
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        static std::atomic<int> count{0};
-        path_ = std::filesystem::temp_directory_path() /
-                ("diptych-gltf-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
-        std::filesystem::create_directories(path_);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-
-    const std::filesystem::path& path() const { return path_; }
-
-    std::filesystem::path write(const std::string& name, const std::string& content) const {
-        const std::filesystem::path file = path_ / name;
-        std::ofstream(file, std::ios::binary) << content;
-        return file;
-    }
-
-private:
-    std::filesystem::path path_;
-};
+inline Scene load_text(const std::string& text) {
+    const TemporaryFolder folder;
+    return load_gltf(folder.write("scene.gltf", text));
+}
 
 inline std::string to_base64(const std::string& bytes) {
     const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -13,11 +13,6 @@ using namespace diptych::core::tests;
 
 namespace {
 
-Scene load_text(const std::string& text) {
-    const TemporaryFolder folder;
-    return load_gltf(folder.write("scene.gltf", text));
-}
-
 bool near(glm::dvec3 a, glm::dvec3 b) {
     return glm::length(a - b) < 1e-9;
 }

@@ -13,6 +13,7 @@
 #include "catch.h"
 #include "error.h"
 #include "image/image.h"
+#include "temporary_folder.h"
 
 namespace diptych::core::image_tests {
 
@@ -22,29 +23,7 @@ using Catch::Approx;
 using Catch::Detail::Approx;
 #endif
 
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "diptych-test-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-            throw Error(name + ": cannot be made");
-        path_ = name;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    size_t file_count() const {
-        return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
-    }
-
-private:
-    std::filesystem::path path_;
-};
+using tests::TemporaryFolder;
 
 inline std::string bytes_of(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);

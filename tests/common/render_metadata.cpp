@@ -1,16 +1,14 @@
 #include "catch.h"
 
 #include "error.h"
+#include "image_fixtures.h"
 #include "render/metadata.h"
 #include "settings/names.h"
 
 using namespace diptych::core;
+using diptych::core::image_tests::contains;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 RenderRequest request_of_everything() {
     RenderRequest request;

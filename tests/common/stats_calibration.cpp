@@ -13,7 +13,6 @@ using namespace diptych::core::tests;
 
 namespace {
 
-constexpr int runs_a_side = 32;
 constexpr double binomial_deviations = 3.5;
 
 struct Calibration {

@@ -13,7 +13,7 @@ namespace {
 const std::vector<double> powers = {1, 2, 4, 8, 16, 32, 64, 128};
 
 /// MSE over 300 pixels of `runs` progressive renders: pixels of standard deviation 1 a sample and one bias.
-ErrorTable made_up_runs(int runs, double bias, std::mt19937_64& random, double exponent = -1) {
+ErrorTable made_up_errors(int runs, double bias, std::mt19937_64& random, double exponent = -1) {
     std::normal_distribution<double> normal;
     ErrorTable errors;
     for (int run = 0; run < runs; ++run) {
@@ -83,14 +83,14 @@ TEST_CASE("the slope of a known decline is found, and its interval covers it", "
     int covered = 0;
     double mean = 0;
     for (int i = 0; i < 300; ++i) {
-        const Interval slope = log_slope(powers, made_up_runs(16, 0, random, exponent), all);
+        const Interval slope = log_slope(powers, made_up_errors(16, 0, random, exponent), all);
         mean += slope.value / 300;
         covered += slope.low <= exponent && exponent <= slope.high ? 1 : 0;
     }
     CHECK(mean == Approx(exponent).margin(0.002));
     CHECK(covered / 300.0 == Approx(0.95).margin(0.045));
     // A floor that is not left out bends it.
-    const ErrorTable biased = made_up_runs(16, 0.5, random);
+    const ErrorTable biased = made_up_errors(16, 0.5, random);
     CHECK(log_slope(powers, biased, all).value > -0.8);
     std::vector<bool> few(powers.size(), false);
     few[0] = few[1] = true;
@@ -109,7 +109,7 @@ TEST_CASE("b squared is found where there is a bias, and as rarely as said where
     int alarms = 0;
     double mean = 0;
     for (int i = 0; i < 500; ++i) {
-        const BiasFit fit = fit_bias(powers, made_up_runs(16, 0, random));
+        const BiasFit fit = fit_bias(powers, made_up_errors(16, 0, random));
         alarms += fit.p < 0.05 ? 1 : 0;
         mean += fit.bias_squared.value / 500;
     }
@@ -118,7 +118,7 @@ TEST_CASE("b squared is found where there is a bias, and as rarely as said where
     int covered = 0;
     mean = 0;
     for (int i = 0; i < 200; ++i) {
-        const BiasFit fit = fit_bias(powers, made_up_runs(16, 0.1, random));
+        const BiasFit fit = fit_bias(powers, made_up_errors(16, 0.1, random));
         mean += fit.bias_squared.value / 200;
         covered += fit.bias_squared.low < 0.01 && fit.bias_squared.high > 0.01 ? 1 : 0;
         REQUIRE(fit.noise == Approx(1).epsilon(0.1));
@@ -127,7 +127,7 @@ TEST_CASE("b squared is found where there is a bias, and as rarely as said where
     CHECK(mean == Approx(0.01).epsilon(0.01));
     CHECK(covered / 200.0 == Approx(0.95).margin(0.055));
     // What all runs share may not pass for bias.
-    CHECK(fit_bias(powers, made_up_runs(16, 0.1, random), 0.01).p > 0.05);
+    CHECK(fit_bias(powers, made_up_errors(16, 0.1, random), 0.01).p > 0.05);
     CHECK(std::isnan(fit_bias(powers, {}, 0).p));
     const BiasFit exact = fit_bias(std::vector<double>{1, 2, 4}, {{3, 2, 1.5}, {3, 2, 1.5}});
     CHECK(exact.bias_squared.value == Approx(1));

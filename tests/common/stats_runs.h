@@ -10,6 +10,8 @@
 
 namespace diptych::core::tests {
 
+inline constexpr int runs_a_side = 32;
+
 /// One tile's mean in one run.
 using TileNoise = std::function<Channels(std::mt19937_64&)>;
 

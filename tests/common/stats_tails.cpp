@@ -13,8 +13,6 @@ using namespace diptych::core::tests;
 
 namespace {
 
-constexpr int runs_a_side = 32;
-
 /// The mean of so many samples u^(-1/1.5): mean 3, no variance. Grey.
 TileNoise pareto_noise(int samples) {
     return [=](std::mt19937_64& random) {

@@ -2,17 +2,13 @@
 // light sampling states it.
 #include <numbers>
 
-#include "backend/cpu_kernel.h"
+#include "test_kernel.h"
 #include "render_fixture.h"
 
 using namespace diptych::core;
 using namespace diptych::core::tests;
 
 namespace {
-
-/// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
-struct Tracer : PlainTracer {};
-using Kernel = shared::CpuKernel<Tracer, ~0U>;
 
 struct Fixture {
     PackedScene packed;

@@ -2,17 +2,13 @@
 // instance that turns, stretches and moves, against double precision.
 #include <limits>
 
-#include "backend/cpu_kernel.h"
+#include "test_kernel.h"
 #include "render_fixture.h"
 
 using namespace diptych::core;
 using namespace diptych::core::tests;
 
 namespace {
-
-/// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
-struct Tracer : PlainTracer {};
-using Kernel = shared::CpuKernel<Tracer, ~0U>;
 
 constexpr glm::dvec2 place(0.25, 0.4);  // barycentrics of the second and third corner
 
@@ -48,12 +44,12 @@ std::vector<glm::vec4> extended(const std::vector<glm::vec3>& values, float w) {
     return all;
 }
 
-struct Fixture {
+struct CornerFixture {
     Scene scene;
     PackedScene packed;
     Primitive triangle;
 
-    Fixture() {
+    CornerFixture() {
         scene.name = "leaning";
         TextureImage texel;
         texel.width = 1;
@@ -82,7 +78,7 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE("A surface has its corners' positions, normals, tangents and colours in proportion to the barycentrics") {
-    Fixture f;
+    CornerFixture f;
     const EmbreeScene embree(f.packed);
     Kernel kernel{f.packed, f.packed.constants, {{embree}}};
     const glm::dvec3 origin = f.packed.origin;
@@ -126,7 +122,7 @@ TEST_CASE("A surface has its corners' positions, normals, tangents and colours i
 }
 
 TEST_CASE("A surface's normals are unit and face the eye, from either side") {
-    Fixture f;
+    CornerFixture f;
     const EmbreeScene embree(f.packed);
     Kernel kernel{f.packed, f.packed.constants, {{embree}}};
     const glm::dvec3 position = glm::dvec3(placement * between(f.triangle, extended(f.triangle.positions, 1)));
@@ -150,7 +146,7 @@ TEST_CASE("A surface's normals are unit and face the eye, from either side") {
 }
 
 TEST_CASE("Every vector of 1e-36 to 1e37 has its direction, along any axis, and what has none gets another's") {
-    Fixture f;
+    CornerFixture f;
     const EmbreeScene embree(f.packed);
     Kernel kernel{f.packed, f.packed.constants, {{embree}}};
     const glm::vec3 fallback(0, 0.6F, -0.8F);

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "agreement_scenes.h"
-#include "backend/cpu_kernel.h"
+#include "test_kernel.h"
 #include "render_fixture.h"
 
 using namespace diptych::core;
@@ -10,17 +10,13 @@ using namespace diptych::core::tests;
 
 namespace {
 
-/// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
-struct Tracer : PlainTracer {};
-using Kernel = shared::CpuKernel<Tracer, ~0U>;
-
-struct Fixture {
+struct PaneFixture {
     Scene scene;
     PackedScene packed;
     EmbreeScene embree;
     Kernel kernel;
 
-    Fixture() : scene(with_pane()), packed(pack_scene(scene, settings())), embree(packed), kernel{packed, packed.constants, {{embree}}} {}
+    PaneFixture() : scene(with_pane()), packed(pack_scene(scene, settings())), embree(packed), kernel{packed, packed.constants, {{embree}}} {}
 
     static Scene with_pane() {
         Scene scene;
@@ -37,7 +33,7 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE("Roulette begins at the third vertex, goes by the largest channel, and kills with 5 % at least") {
-    Fixture f;
+    PaneFixture f;
     for (shared::uint depth = 0; depth < 3; ++depth) {
         CHECK(f.kernel.survival_probability({0.01F, 0.02F, 0.03F}, depth) == 1.0F);
     }
@@ -49,7 +45,7 @@ TEST_CASE("Roulette begins at the third vertex, goes by the largest channel, and
 }
 
 TEST_CASE("No two rays of a path decide about alpha by the same number, nor do two paths") {
-    Fixture f;
+    PaneFixture f;
     REQUIRE(f.kernel.feature(shared::FEATURE_ALPHA));
     std::set<std::uint32_t> keys;
     std::size_t rays = 0;
@@ -71,7 +67,7 @@ TEST_CASE("No two rays of a path decide about alpha by the same number, nor do t
 }
 
 TEST_CASE("A sample that is dropped leaves neither mean nor second moment touched, be it the first") {
-    Fixture f;
+    PaneFixture f;
     REQUIRE(f.kernel.feature(shared::FEATURE_STANDARD_ERROR));
     const float bad = std::nanf("");
     shared::FilmPixel pixel{};

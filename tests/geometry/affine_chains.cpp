@@ -18,8 +18,8 @@ namespace {
 constexpr int cells = 10;  // a side
 constexpr int cell_pixels = 8;
 constexpr int side = cells * cell_pixels;
-constexpr int spp = 16;
-constexpr int cell_samples = cell_pixels * cell_pixels * spp;
+constexpr int cell_spp = 16;
+constexpr int cell_samples = cell_pixels * cell_pixels * cell_spp;
 
 /// Whether instances hang in nodes that move: those cannot have vertices in the world.
 enum class Standing { still, moving };
@@ -116,7 +116,7 @@ void compare_chains(Standing standing, int scenes, double rounding, double apart
     Worst worst;
     for (int seed = 0; seed < scenes; ++seed) {
         INFO("scene " << seed);
-        const Films films = render_everywhere(chains_scene(seed, standing), geometry_settings(side, side, 1), spp);
+        const Films films = render_everywhere(chains_scene(seed, standing), geometry_settings(side, side, 1), cell_spp);
         CHECK(count_nonfinite(films) == 0);
         compare_cells(films, rounding, worst);
     }

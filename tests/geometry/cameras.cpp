@@ -14,7 +14,7 @@ using namespace diptych::core::tests;
 
 namespace {
 
-constexpr int side = 4;
+constexpr int film_side = 4;
 constexpr std::uint32_t samples = 64;
 
 double size_of(const Bounds& bounds) {
@@ -77,7 +77,7 @@ enum class Outcome { alike, refused };
 
 Outcome judge(std::uint64_t seed, bool on_device) {
     const Scene scene = extreme_scene(seed);
-    const RenderSettings settings = geometry_settings(side, side, 1);
+    const RenderSettings settings = geometry_settings(film_side, film_side, 1);
     PackedScene packed;
     try {
         packed = pack_scene(scene, settings);

@@ -75,7 +75,7 @@ TEST_CASE("The engine of converge measures every method at 1, 2, 4... samples an
     const TemporaryFolder folder;
     const Scene scene = cornell();
     const ConvergeSubject subject = subject_of(scene);
-    const Measured measured = measure(folder.path, subject);
+    const Measured measured = measure(folder.path(), subject);
     REQUIRE(measured.whole);
     CHECK(measured.rows.size() == 2 * runs * 3);
     REQUIRE(measured.summary);
@@ -98,13 +98,13 @@ TEST_CASE("The engine of converge goes on from wherever it was cancelled, to the
     const TemporaryFolder folder;
     const Scene scene = cornell();
     const ConvergeSubject subject = subject_of(scene);
-    const Measured whole = measure(folder.path / "whole", subject);
+    const Measured whole = measure(folder.path() / "whole", subject);
     REQUIRE(whole.whole);
     // The reference's first and last block, a run, the last picture.
     const int blocks = static_cast<int>(reference_blocks);
     for (const int step : {1, blocks, blocks + 2, whole.steps}) {
         INFO("cancelled at step " << step);
-        const std::filesystem::path place = folder.path / std::to_string(step);
+        const std::filesystem::path place = folder.path() / std::to_string(step);
         const Measured stopped = measure(place, subject, step);
         CHECK_FALSE(stopped.whole);
         CHECK(stopped.steps == step);
@@ -127,7 +127,7 @@ TEST_CASE("What a folder of converge's holds is read back as it was written") {
     row.mse = 0.1;
     row.rays = 1ULL << 40U;
     {
-        ConvergeState state(folder.path.string());
+        ConvergeState state(folder.path().string());
         CHECK_FALSE(state.load_seconds().has_value());
         CHECK_FALSE(state.setup("cpu:path").has_value());
         state.set_load_seconds(1.5);
@@ -138,7 +138,7 @@ TEST_CASE("What a folder of converge's holds is read back as it was written") {
         state.set_picture("cpu:path", picture);
         state.append({row});
     }
-    const ConvergeState state(folder.path.string());
+    const ConvergeState state(folder.path().string());
     CHECK(state.load_seconds() == 1.5);
     CHECK(state.limit("cpu:path") == 16U);
     CHECK_FALSE(state.limit("cpu:brdf").has_value());

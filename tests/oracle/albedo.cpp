@@ -10,11 +10,6 @@ namespace {
 
 using namespace oracle;
 
-dvec3 from_angles(double cosine, double angle) {
-    const double sine = std::sqrt(1 - cosine * cosine);
-    return {sine * std::cos(angle), sine * std::sin(angle), cosine};
-}
-
 /// Integral over half vectors of weight(h) D(h), by the midpoint rule in the cosine's own distribution: dh D cos = dq
 /// dphi / 2 pi.
 template <typename Weight>

@@ -18,7 +18,7 @@ namespace {
 
 using namespace oracle;
 
-constexpr int side = 32;
+constexpr int image_side = 32;
 constexpr unsigned max_depth = 8;
 
 struct Contribution {
@@ -140,15 +140,15 @@ std::vector<Split> survey(const Room& room, std::vector<Split> splits, int spp, 
                           Follow follow_path) {
     const std::vector<Split> fresh = splits;
     std::mutex mutex;
-    tbb::parallel_for(0, side, [&](int y) {
+    tbb::parallel_for(0, image_side, [&](int y) {
         std::vector<Split> own = fresh;
         std::vector<Contribution> found;
-        for (int x = 0; x < side; ++x) {
-            Random random(seed, std::uint64_t(y * side + x), 0);
+        for (int x = 0; x < image_side; ++x) {
+            Random random(seed, std::uint64_t(y * image_side + x), 0);
             for (int k = 0; k < spp; ++k) {
                 found.clear();
-                const double film_x = (x + random.uniform()) / side;
-                const double film_y = (y + random.uniform()) / side;
+                const double film_x = (x + random.uniform()) / image_side;
+                const double film_y = (y + random.uniform()) / image_side;
                 follow_path(room, camera_ray(room.world, room.world.scene->cameras[0], 1, film_x, film_y, random),
                             random, found);
                 for (Split& split : own) {
@@ -161,7 +161,7 @@ std::vector<Split> survey(const Room& room, std::vector<Split> splits, int spp, 
             splits[i].add(own[i]);
         }
     });
-    const double n = double(side) * side * spp;
+    const double n = double(image_side) * image_side * spp;
     for (Split& split : splits) {
         split.below /= n;
         split.below_squares /= n;
@@ -181,7 +181,7 @@ double error_of(const Split& split, double n) {
 
 TEST_CASE("what area sampling lacks on veach-mis lies in samples too rare to meet", "[oracle][nightly]") {
     const Scene scene = generate_scene("veach-mis").scene;
-    OracleSettings settings = small_settings(side, side, max_depth);
+    OracleSettings settings = small_settings(image_side, image_side, max_depth);
     settings.mode = Mode::mis;
     const double image = mean_of(render(scene, settings, 256).all().mean);
     std::vector<Split> splits;
@@ -190,7 +190,7 @@ TEST_CASE("what area sampling lacks on veach-mis lies in samples too rare to mee
     }
     const Room room(scene);
     const int spp = 8192;
-    const double n = double(side) * side * spp;
+    const double n = double(image_side) * image_side * spp;
     const std::vector<Split> known = survey(room, splits, spp, 1, follow);
     const std::vector<Split> area = survey(room, splits, spp, 2, follow_by_area);
     if (std::getenv("DIPTYCH_TABLE") != nullptr) {
@@ -231,7 +231,7 @@ TEST_CASE("with rougher plates area sampling shows of veach-mis what mis shows",
     for (Material& material : scene.materials) {
         material.roughness = glm::max(material.roughness, 0.6F);
     }
-    OracleSettings settings = small_settings(side, side, max_depth);
+    OracleSettings settings = small_settings(image_side, image_side, max_depth);
     settings.mode = Mode::area;
     const Rendered area = render(scene, settings, 8192);
     settings.mode = Mode::mis;

@@ -10,11 +10,6 @@ namespace {
 
 using namespace oracle;
 
-dvec3 from_angles(double cosine, double angle) {
-    const double sine = std::sqrt(glm::max(1 - cosine * cosine, 0.0));
-    return {sine * std::cos(angle), sine * std::sin(angle), cosine};
-}
-
 constexpr int rings = 10;
 constexpr int sectors = 12;
 constexpr std::size_t cells = std::size_t(2 * rings * sectors);

@@ -2,6 +2,7 @@
 // difference, and by a want of power.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -54,6 +55,12 @@ void check_equal(const Estimate& a, const Estimate& b, double half_width);
 Material lambertian(const vec3& albedo);
 /// Microfacets of the roughness, as glTF has them.
 Material glossy(const vec3& color, float metallic, float roughness);
+
+/// A unit vector at that cosine from z and that angle about it.
+inline dvec3 from_angles(double cosine, double angle) {
+    const double sine = std::sqrt(glm::max(1 - cosine * cosine, 0.0));
+    return {sine * std::cos(angle), sine * std::sin(angle), cosine};
+}
 
 Primitive quad(const vec3& a, const vec3& b, const vec3& c, const vec3& d, int material);
 

@@ -12,8 +12,6 @@ using namespace diptych::core::tests;
 
 namespace {
 
-constexpr double pi = 3.14159265358979;
-
 /// One triangle with every attribute; side about `size`.
 Mesh large_triangle(double size, std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -21,7 +19,7 @@ Mesh large_triangle(double size, std::uint32_t seed) {
     Primitive p;
     p.material = 0;
     for (int k = 0; k < 3; ++k) {
-        const double angle = 2 * pi * k / 3;
+        const double angle = 2 * 3.14159265358979 * k / 3;
         p.positions.emplace_back(glm::dvec3(std::cos(angle), 0.3 * uniform(random), std::sin(angle)) * size);
         p.normals.push_back(glm::normalize(glm::vec3(0.4F * uniform(random), 1, 0.4F * uniform(random))));
         p.tangents.emplace_back(1, 0.1F * uniform(random), 0, -1);

@@ -16,9 +16,9 @@ Primitive one_triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& 
     return p;
 }
 
-const glm::vec3 a(0, 0, 5);  // away from the eye at 0, about which triangles are cut
-const glm::vec3 b(1, 0, 5);
-const glm::vec3 c(0, 1, 5);
+const glm::vec3 v0(0, 0, 5);  // away from the eye at 0, about which triangles are cut
+const glm::vec3 v1(1, 0, 5);
+const glm::vec3 v2(0, 1, 5);
 
 Scene scene_of(std::vector<Primitive> primitives) {
     Scene scene;
@@ -39,11 +39,12 @@ std::size_t packed_triangles(const Scene& scene) {
 
 TEST_CASE("Exact duplicates within a mesh are left out, counted and reported") {
     const PackedScene packed =
-        pack_scene(scene_of({one_triangle(a, b, c), one_triangle(b, c, a), one_triangle(c, a, b)}), brdf_settings());
+        pack_scene(scene_of({one_triangle(v0, v1, v2), one_triangle(v1, v2, v0), one_triangle(v2, v0, v1)}),
+                   brdf_settings());
     CHECK(packed.triangles.size() == 1);
     REQUIRE(packed.warnings.size() == 1);
     CHECK_THAT(packed.warnings[0], Catch::Contains("twice: 2 triangles repeat others"));
-    Scene copies = scene_of({one_triangle(a, b, c), one_triangle(b, c, a)});
+    Scene copies = scene_of({one_triangle(v0, v1, v2), one_triangle(v1, v2, v0)});
     add_instance(copies, "again", 0, translation(1, 0, 0));
     CHECK(find_duplicate_triangles(copies).count == 2);
     CHECK(packed_triangles(copies) == 1);
@@ -63,15 +64,16 @@ TEST_CASE("Duplicates are found whichever corner is named first, also where the 
 }
 
 TEST_CASE("What shows another side, lets rays pass or is an ulp aside is no duplicate") {
-    CHECK(packed_triangles(scene_of({one_triangle(a, b, c), one_triangle(a, c, b)})) == 2);
-    CHECK(packed_triangles(scene_of({one_triangle(a, b, c, 1), one_triangle(a, b, c, 1), one_triangle(a, b, c)})) == 3);
-    CHECK(packed_triangles(scene_of({one_triangle(a, b, c), one_triangle(a, b, {0, 1.0000001F, 5})})) == 2);
+    CHECK(packed_triangles(scene_of({one_triangle(v0, v1, v2), one_triangle(v0, v2, v1)})) == 2);
+    CHECK(packed_triangles(
+              scene_of({one_triangle(v0, v1, v2, 1), one_triangle(v0, v1, v2, 1), one_triangle(v0, v1, v2)})) == 3);
+    CHECK(packed_triangles(scene_of({one_triangle(v0, v1, v2), one_triangle(v0, v1, {0, 1.0000001F, 5})})) == 2);
 }
 
 TEST_CASE("Instances that stand in one place share their triangles, and moving ones do not") {
-    Scene scene = scene_of({one_triangle(a, b, c), one_triangle(a, b, c, 1)});
+    Scene scene = scene_of({one_triangle(v0, v1, v2), one_triangle(v0, v1, v2, 1)});
     add_instance(scene, "again", 0);
-    add_object(scene, "other", {one_triangle(a, c, b), one_triangle(b, c, a)});
+    add_object(scene, "other", {one_triangle(v0, v2, v1), one_triangle(v1, v2, v0)});
     add_instance(scene, "elsewhere", 1, translation(0, 0, 1));
     const DuplicateTriangles found = find_duplicate_triangles(scene);
     CHECK(found.count == 2);
@@ -91,7 +93,7 @@ TEST_CASE("Instances that stand in one place share their triangles, and moving o
     }
     CHECK(find_duplicate_triangles(scene).count == 0);
     // All of the second is where the first is.
-    Scene twice = scene_of({one_triangle(a, b, c)});
+    Scene twice = scene_of({one_triangle(v0, v1, v2)});
     add_instance(twice, "again", 0);
     CHECK(pack_scene(twice, brdf_settings()).instances.size() == 1);
 }

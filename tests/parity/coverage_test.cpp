@@ -12,7 +12,7 @@
 namespace diptych::core::tests {
 namespace {
 
-const std::filesystem::path root = DIPTYCH_SOURCE_DIR;
+const std::filesystem::path source_root = DIPTYCH_SOURCE_DIR;
 
 /// Functions of leaf headers that no probe calls, each with its reason.
 const std::map<std::string, std::string> exempt = {};
@@ -42,17 +42,17 @@ bool is_leaf(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_CASE("Every function of the leaf headers is called by a probe, and every probe is listed") {
-    if (!std::filesystem::is_directory(root / "shared_glsl_cpp")) {
+    if (!std::filesystem::is_directory(source_root / "shared_glsl_cpp")) {
         SKIP_TEST("the sources are not here");
     }
     std::string probes;
-    for (const auto& entry : std::filesystem::directory_iterator(root / "tests/parity")) {
+    for (const auto& entry : std::filesystem::directory_iterator(source_root / "tests/parity")) {
         if (entry.path().filename().string().starts_with("probe") && entry.path().extension() == ".h") {
             probes += read_code(entry.path());
         }
     }
     std::size_t found = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "shared_glsl_cpp")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source_root / "shared_glsl_cpp")) {
         if (!is_leaf(entry.path())) {
             continue;
         }

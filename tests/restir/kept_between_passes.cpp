@@ -5,14 +5,11 @@
 #include <tuple>
 
 #include "backend/resampling_stages.h"
+#include "../cpu/test_kernel.h"
 #include "chain_cases.h"
 
 namespace diptych::core::tests {
 namespace {
-
-/// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
-struct Tracer : PlainTracer {};
-using Kernel = shared::CpuKernel<Tracer, ~0U>;
 
 /// A chain's passes over a whole film, of which the test sees everything.
 struct Chain {

@@ -1,14 +1,10 @@
 // Picks of lights follow the density that candidates are weighed by.
-#include "backend/cpu_kernel.h"
+#include "../cpu/test_kernel.h"
 #include "chain_cases.h"
 #include "stats/chi_square.h"
 
 namespace diptych::core::tests {
 namespace {
-
-/// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
-struct Tracer : PlainTracer {};
-using Kernel = shared::CpuKernel<Tracer, ~0U>;
 
 shared::TargetSurface surface_at(const glm::vec3& position, const glm::vec3& normal) {
     shared::TargetSurface s{};

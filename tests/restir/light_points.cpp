@@ -32,7 +32,7 @@ struct CountingTracer {
         return scene.any_previous(origin, direction, t_max, alpha_key);
     }
 };
-using Kernel = shared::CpuKernel<CountingTracer, ~0U>;
+using CountingKernel = shared::CpuKernel<CountingTracer, ~0U>;
 
 /// A floor under a square lamp, a bulb, a sun and a constant sky.
 Scene all_kinds_of_light() {
@@ -58,7 +58,7 @@ struct Lights {
     PackedScene packed;
     EmbreeScene embree;
     std::uint64_t rays = 0;
-    Kernel kernel;
+    CountingKernel kernel;
 
     explicit Lights(const RenderSettings& settings, const Scene& scene = all_kinds_of_light())
         : packed(pack_scene(scene, settings)), embree(packed), kernel{packed, packed.constants, {embree, rays}} {}

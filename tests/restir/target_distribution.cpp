@@ -3,14 +3,11 @@
 #include <functional>
 
 #include "backend/resampling_stages.h"
+#include "../cpu/test_kernel.h"
 #include "chain_cases.h"
 
 namespace diptych::core::tests {
 namespace {
-
-/// Of this file alone, so that the kernel below is too, and no linker takes another file's copy of it.
-struct Tracer : PlainTracer {};
-using Kernel = shared::CpuKernel<Tracer, ~0U>;
 
 constexpr std::size_t parts = 4;
 using Part = std::function<std::size_t(const shared::LightPoint&, double target)>;

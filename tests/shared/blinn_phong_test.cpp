@@ -8,8 +8,8 @@ using namespace diptych::core::tests;
 
 namespace {
 
-const double alphas[] = {1.0, 0.3, 0.1, 0.03, 0.01, 1e-3};
-const double cosines[] = {1.0, 0.7, 0.1, 0.01};
+const double phong_alphas[] = {1.0, 0.3, 0.1, 0.03, 0.01, 1e-3};
+const double phong_cosines[] = {1.0, 0.7, 0.1, 0.01};
 
 /// Smith's Lambda of the slopes' Student-t marginal, by quadrature in double precision.
 double exact_lambda(double cosine, double alpha) {
@@ -97,10 +97,10 @@ TEST_CASE("Blinn-Phong reflects no more than it receives") {
 namespace {
 
 void check_blinn_phong_draws(int64_t draws) {
-    const int tests = static_cast<int>(std::size(alphas) * std::size(cosines));
+    const int tests = static_cast<int>(std::size(phong_alphas) * std::size(phong_cosines));
     uint32_t seed = 100;
-    for (const double alpha : alphas) {
-        for (const double cosine : cosines) {
+    for (const double alpha : phong_alphas) {
+        for (const double cosine : phong_cosines) {
             const float a = static_cast<float>(alpha);
             const vec3 wo = direction_at(cosine, 0.45);
             Uniforms u(seed++);

@@ -2,6 +2,7 @@
 #include "numbers/elementary.h"
 
 #include "catch.h"
+#include "known_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <vector>
 
 using namespace diptych::core::shared;
+using namespace diptych::core::tests;
 
 namespace {
 
@@ -23,18 +25,6 @@ struct Row {
     float (*approximate)(float);
     double (*exact)(double);
 };
-
-float sine(float x) {
-    float s, c;
-    sin_cos(x, s, c);
-    return s;
-}
-
-float cosine(float x) {
-    float s, c;
-    sin_cos(x, s, c);
-    return c;
-}
 
 const Row rows[] = {
     {"sin_cos, sine", -7, 7, 1.6, false, sine, [](double x) { return std::sin(x); }},

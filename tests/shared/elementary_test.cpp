@@ -3,11 +3,12 @@
 
 #include "catch.h"
 #include "close.h"
+#include "known_values.h"
 
 #include <cmath>
 
 using namespace diptych::core::shared;
-using diptych::core::tests::close;
+using namespace diptych::core::tests;
 
 namespace {
 
@@ -42,18 +43,6 @@ Error largest_error(float low, float high, Approximate approximate, Exact exact)
         probe(-uintBitsToFloat(bits));
     }
     return worst;
-}
-
-float sine(float x) {
-    float s, c;
-    sin_cos(x, s, c);
-    return s;
-}
-
-float cosine(float x) {
-    float s, c;
-    sin_cos(x, s, c);
-    return c;
 }
 
 const float infinity = positive_infinity();

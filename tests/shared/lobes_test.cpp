@@ -4,15 +4,13 @@
 
 #include "catch.h"
 #include "direction_chi_square.h"
+#include "known_values.h"
 #include "bsdf/surface_bsdf.h"
 
 using namespace diptych::core::shared;
 using namespace diptych::core::tests;
 
 namespace {
-
-const vec3 up(0.0f, 0.0f, 1.0f);
-const vec3 white(1.0f, 1.0f, 1.0f);
 
 using dvec3 = glm::dvec3;
 

@@ -6,6 +6,7 @@
 
 #include "catch.h"
 #include "direction_chi_square.h"
+#include "known_values.h"
 #include "bsdf/surface_bsdf.h"
 
 using namespace diptych::core::shared;
@@ -14,7 +15,6 @@ using namespace diptych::core::tests;
 namespace {
 
 using dvec3 = glm::dvec3;
-const vec3 up(0.0f, 0.0f, 1.0f);
 
 dvec3 fresnel(const BsdfParameters& b, double cosine) {
     return dvec3(b.f0) + (dvec3(b.f90) - dvec3(b.f0)) * std::pow(1.0 - cosine, 5.0);

@@ -5,13 +5,12 @@
 
 #include "catch.h"
 #include "direction_chi_square.h"
+#include "known_values.h"
 
 using namespace diptych::core::shared;
 using namespace diptych::core::tests;
 
 namespace {
-
-const vec3 white(1.0f, 1.0f, 1.0f);
 
 SurfaceBsdf turned(const BsdfParameters& p, vec3 normal) {
     SurfaceBsdf s;

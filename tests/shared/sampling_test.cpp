@@ -18,7 +18,7 @@ using diptych::core::tests::close;
 
 namespace {
 
-constexpr int draws = 1000000;
+constexpr int draw_count = 1000000;
 constexpr int rows = 65;
 constexpr int columns = 130;
 
@@ -38,7 +38,7 @@ double direction_deviate(Warp warp, Cumulative cumulative) {
     std::vector<double> observed(rows * columns);
     std::vector<double> expected(rows * columns);
     double off_unit = 0;
-    for (uint i = 0; i < draws; i++) {
+    for (uint i = 0; i < draw_count; i++) {
         const vec3 w = warp(random_square(i));
         off_unit = std::max(off_unit, std::abs(double(length(w)) - 1));
         const auto row = std::size_t(std::min((w.z * 0.5 + 0.5) * rows, rows - 1.0));
@@ -47,7 +47,7 @@ double direction_deviate(Warp warp, Cumulative cumulative) {
     for (int row = 0; row < rows; row++) {
         const double part = cumulative(2.0 * (row + 1) / rows - 1) - cumulative(2.0 * row / rows - 1);
         for (int column = 0; column < columns; column++) {
-            expected[std::size_t(row * columns + column)] = part * draws / columns;
+            expected[std::size_t(row * columns + column)] = part * draw_count / columns;
         }
     }
     CHECK(off_unit < 1e-6);
@@ -85,7 +85,7 @@ TEST_CASE("Pdfs integrate to 1") {
 
 TEST_CASE("The disk is uniform") {
     std::vector<double> cells(64 * columns);
-    for (uint i = 0; i < draws; i++) {
+    for (uint i = 0; i < draw_count; i++) {
         const vec2 p = sample_disk_concentric(random_square(i));
         const double squared = double(p.x) * p.x + double(p.y) * p.y;
         REQUIRE(squared < 1 + 1e-6);

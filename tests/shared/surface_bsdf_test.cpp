@@ -6,6 +6,7 @@
 
 #include "catch.h"
 #include "direction_chi_square.h"
+#include "known_values.h"
 
 using namespace diptych::core::shared;
 using namespace diptych::core::tests;
@@ -13,8 +14,6 @@ using namespace diptych::core::tests;
 namespace {
 
 constexpr uint all_features = ~0u;
-const vec3 up(0.0f, 0.0f, 1.0f);
-const vec3 white(1.0f, 1.0f, 1.0f);
 
 BsdfParameters white_diffuse() {
     return bsdf_parameters(white, 0.0f, 1.0f, 0.0f, 0.0f, white, BRDF_GGX);

@@ -57,7 +57,7 @@ bool inside(vec2 b) {
     return b.x >= 0 && b.y >= 0 && b.x + b.y <= 1 + 1e-6f;
 }
 
-const float ends[] = {0.0f, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
+const float u_ends[] = {0.0f, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
 const vec3 origin(0, 0, 0);
 
 /// Chi-square of samples over cells of the square that sample_triangle maps to the triangle; cells of equal area there.
@@ -94,8 +94,8 @@ double sample_deviate(vec3 reference, const Triangle& t, bool against_area) {
 }  // namespace
 
 TEST_CASE("sample_triangle is uniform and stays inside at the ends of u") {
-    for (const float x : ends) {
-        for (const float y : ends) {
+    for (const float x : u_ends) {
+        for (const float y : u_ends) {
             const vec2 b = sample_triangle(vec2(x, y));
             CHECK((b.x >= 0 && b.y >= 0 && b.x + b.y < 1));
         }
@@ -254,8 +254,8 @@ TEST_CASE("No NaN at the ends of u, on needles, from within the plane, or for no
     };
     for (const Triangle& t : triangles) {
         const double truth = exact_solid_angle(origin, t);
-        for (const float u_x : ends) {
-            for (const float u_y : ends) {
+        for (const float u_x : u_ends) {
+            for (const float u_y : u_ends) {
                 const TriangleSample s = sample_triangle_solid_angle(origin, t.v0, t.e1, t.e2, vec2(u_x, u_y));
                 CAPTURE(t.v0.x, t.v0.y, t.v0.z, t.e1.x, t.e1.y, t.e1.z, t.e2.x, t.e2.y, t.e2.z, u_x, u_y);
                 REQUIRE(inside(s.barycentrics));
