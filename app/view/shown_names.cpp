@@ -8,14 +8,14 @@ namespace diptych::core::app {
 
 namespace {
 
-constexpr std::array panels = {"vulkan", "cpu", "split", "difference"};
+constexpr std::array shown_names = {"vulkan", "cpu", "split", "difference"};
 constexpr std::array layers = {"radiance", "albedo",   "normal",      "depth",       "standard-error",
                                "samples",  "light-id", "reservoir-m", "reservoir-w", "nonfinite"};
 
 }  // namespace
 
 const char* name_of(ShownPanel panel) {
-    return panels[static_cast<std::size_t>(panel)];
+    return shown_names[static_cast<std::size_t>(panel)];
 }
 
 const char* name_of(ShownLayer layer) {
@@ -23,8 +23,8 @@ const char* name_of(ShownLayer layer) {
 }
 
 ShownPanel shown_panel_from_name(const std::string& name) {
-    for (std::size_t i = 0; i < panels.size(); ++i) {
-        if (name == panels[i]) {
+    for (std::size_t i = 0; i < shown_names.size(); ++i) {
+        if (name == shown_names[i]) {
             return static_cast<ShownPanel>(i);
         }
     }

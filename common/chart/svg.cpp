@@ -54,9 +54,9 @@ std::string xml_text(std::string_view text) {
     return safe;
 }
 
-double text_width(std::string_view text, double font_size) {
+double text_width(std::string_view text, double size) {
     const auto characters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
-    return 0.61 * font_size * static_cast<double>(characters);
+    return 0.61 * size * static_cast<double>(characters);
 }
 
 std::string svg_line(Point2 from, Point2 to, std::string_view attributes) {

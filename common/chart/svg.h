@@ -16,7 +16,7 @@ struct Point2 {
 std::string xml_text(std::string_view text);
 
 /// About how wide a text is: fonts differ, so it is that of a wide one.
-double text_width(std::string_view text, double font_size);
+double text_width(std::string_view text, double size);
 
 std::string svg_line(Point2 from, Point2 to, std::string_view attributes);
 /// "start", "middle" or "end" of the text stands at the point; `text` is escaped.

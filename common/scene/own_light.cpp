@@ -10,7 +10,7 @@
 namespace diptych::core {
 namespace {
 
-constexpr int side = 24;            // pixels of a view
+constexpr int view_side = 24;       // pixels of a view
 constexpr int emitter_count = 512;  // points
 constexpr std::size_t most_cameras = 4;
 
@@ -68,7 +68,7 @@ LightOfView light_of(const Scene& scene, const Emitters& emitters, const Camera&
     std::vector<double> lamps;
     std::vector<double> brightness;
     std::vector<double> enclosure;
-    for (const SurfacePoint& point : seen_points(scene, emitters.peaks, camera, side)) {
+    for (const SurfacePoint& point : seen_points(scene, emitters.peaks, camera, view_side)) {
         if (scene.materials[static_cast<std::size_t>(point.material)].unlit) {
             continue;  // shows its colour in any light
         }

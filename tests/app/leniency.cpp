@@ -38,7 +38,7 @@ std::string two_clips() {
     return R"(,"animations":[)" + clip("walk") + "," + clip("idle") + "]";
 }
 
-std::size_t count_of(const std::string& part, const std::string& text) {
+std::size_t times_in(const std::string& part, const std::string& text) {
     std::size_t count = 0;
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
         ++count;
@@ -64,7 +64,7 @@ TEST_CASE("a faulty file renders with one warning, and is refused by --strict", 
         INFO(lenient.err);
         CHECK(lenient.exit_code == 0);
         for (const std::string& part : parts) {
-            CHECK(count_of(part, lenient.err) == 1);
+            CHECK(times_in(part, lenient.err) == 1);
         }
         std::vector<std::string> refusal = parts;
         refusal.push_back(scene);
@@ -107,13 +107,13 @@ TEST_CASE("of two clips for one node the first plays with one warning, or the on
     const std::string scene =
         write_triangle(folder, R"([{"mesh":0},{"camera":0,"translation":[0,0,2]}])", emissive + two_clips() + cameras);
     const std::string warning = "clip 0 'walk'";
-    CHECK(count_of(warning, render_leniently(folder, scene).err) == 0);  // shown at rest
-    CHECK(count_of(warning, render_leniently(folder, scene, {"--frames", "2"}).err) == 1);
+    CHECK(times_in(warning, render_leniently(folder, scene).err) == 0);  // shown at rest
+    CHECK(times_in(warning, render_leniently(folder, scene, {"--frames", "2"}).err) == 1);
     for (const std::string clip : {"idle", "1"}) {
         const ProcessResult chosen = render_leniently(folder, scene, {"--frames", "2", "--clip", clip, "--strict"});
         INFO(chosen.err);
         CHECK(chosen.exit_code == 0);
-        CHECK(count_of(warning, chosen.err) == 0);
+        CHECK(times_in(warning, chosen.err) == 0);
         CHECK(contains(read_image(folder.file("out.0001.exr")).metadata.at("command"), "--clip " + clip));
     }
     check_refusal(render_leniently(folder, scene, {"--frames", "2", "--strict"}), 2, {scene, warning, "1 'idle' does not play"});
