@@ -1,0 +1,143 @@
+// Films: their arrays are views of the film's own memory.
+#include <cmath>
+#include <cstdio>
+
+#include "bindings.h"
+
+namespace diptych::python {
+
+namespace {
+
+constexpr const char* film_doc =
+    "What a session has rendered: a value. Arrays have row 0 on top.\n\n"
+    ">>> import diptych as dp\n"
+    ">>> scene = dp.Scene()\n"
+    ">>> scene.environment.scale = (0.5, 0.5, 0.5)\n"
+    ">>> film = dp.render(scene, spp=4, size=(3, 2))\n"
+    ">>> film.radiance.shape, film.radiance.dtype, float(film.radiance[0, 0, 0])\n"
+    "((2, 3, 3), dtype('float32'), 0.5)\n";
+
+/// A copy of the film, which shares its memory, lives on in the array.
+py::array layer(const Film& film, const std::string& name) {
+    auto* owned = new Film(film);
+    const py::capsule owner(owned, [](void* memory) { delete static_cast<Film*>(memory); });
+    const std::span<const float> values = owned->layer(name);
+    if (values.empty()) {
+        const char* setting = name == "standard_error" ? "standard_error" : "first_hit";
+        throw Error("the film has no layer " + name + ": it was rendered with " + setting + "=False");
+    }
+    std::vector<py::ssize_t> shape{film.height(), film.width()};
+    if (values.size() != static_cast<std::size_t>(film.height()) * static_cast<std::size_t>(film.width())) {
+        shape.push_back(3);
+    }
+    return view_of(values.data(), shape, owner);
+}
+
+py::array named_layer(const Film& film, const std::string& name) {
+    try {
+        film.layer(name);
+    } catch (const Error& error) {
+        throw UnknownName(error.what());
+    }
+    return layer(film, name);
+}
+
+std::vector<std::string> layers(const Film& film) {
+    std::vector<std::string> names;
+    for (const char* name : {"radiance", "standard_error", "albedo", "normal", "depth"}) {
+        if (!film.layer(name).empty()) {
+            names.emplace_back(name);
+        }
+    }
+    return names;
+}
+
+/// "2.1e-3"
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1e", value);
+    std::string result = text;
+    const std::size_t exponent = result.find('e') + 2;
+    while (result.size() > exponent + 1 && result[exponent] == '0') {
+        result.erase(exponent, 1);
+    }
+    return result;
+}
+
+std::string shown(const Film& film) {
+    const FilmInfo& info = film.info();
+    std::string text = "<Film " + std::to_string(film.width()) + "x" + std::to_string(film.height()) + ", " +
+                       std::to_string(info.spp) + " spp, " + name_of(info.backend);
+    if (info.backend != Backend::oracle) {
+        text += ":" + name_of(info.settings.integrator);
+    }
+    const double relmse = film.relmse_estimate();
+    return text + (std::isnan(relmse) ? "" : ", relMSE " + short_number(relmse)) + ">";
+}
+
+py::bytes png(const Film& film) {
+    const py::object folder = py::module_::import("tempfile").attr("TemporaryDirectory")();
+    const py::object path = py::module_::import("pathlib").attr("Path")(folder.attr("name")) / py::str("film.png");
+    film.save(py::str(path));
+    return path.attr("read_bytes")();  // the folder is removed with its object
+}
+
+}  // namespace
+
+void bind_film(py::module_& module) {
+    const auto info = [](auto member) { return [member](const Film& film) { return film.info().*member; }; };
+    py::class_<Film>(module, "Film", film_doc)
+        .def_property_readonly("width", &Film::width, "Pixels.")
+        .def_property_readonly("height", &Film::height, "Pixels.")
+        .def_property_readonly("scene", info(&FilmInfo::scene), "The scene's name.")
+        .def_property_readonly("backend", [](const Film& film) { return name_of(film.info().backend); })
+        .def_property_readonly("device", info(&FilmInfo::device), "The device's own name.")
+        .def_property_readonly("settings", info(&FilmInfo::settings))
+        .def_property_readonly("spp", info(&FilmInfo::spp), "Samples that every pixel has.")
+        .def_property_readonly("samples", info(&FilmInfo::samples), "Samples averaged, over all pixels.")
+        .def_property_readonly("nonfinite", info(&FilmInfo::nonfinite), "Samples dropped as not finite or negative.")
+        .def_property_readonly("rays", info(&FilmInfo::rays))
+        .def_property_readonly("seconds", info(&FilmInfo::seconds), "Of rendering.")
+        .def_property_readonly("radiance", [](const Film& film) { return layer(film, "radiance"); },
+                               "Float32 (h, w, 3), W/(sr m²), linear Rec.709: a read-only view without a copy.")
+        .def_property_readonly("standard_error", [](const Film& film) { return layer(film, "standard_error"); },
+                               "Float32 (h, w, 3): the standard error of radiance, a read-only view. NaN where a pixel has\n"
+                               "fewer than two samples. restir's samples depend on one another, so for restir this is no\n"
+                               "measure of the error.")
+        .def("__getitem__", &named_layer, py::arg("layer"),
+             "\"albedo\" or \"normal\", float32 (h, w, 3), or \"depth\", float32 (h, w), metres: means of the first hit.\n"
+             "Also \"radiance\" and \"standard_error\". Read-only views.")
+        .def_property_readonly("layers", &layers, "The names of the layers that the film has.")
+        .def_property_readonly(
+            "sums", [](const Film& film) { return array_of(film.sums(), {film.height(), film.width(), 3}); },
+            "Float64 (h, w, 3): the sums that radiance is the mean of. A copy.")
+        .def_property_readonly(
+            "sample_counts", [](const Film& film) { return array_of(film.sample_counts(), {film.height(), film.width()}); },
+            "Uint32 (h, w): the samples in each sum. A copy.")
+        .def_property_readonly("relmse_estimate", &Film::relmse_estimate,
+                               "Mean of variance / (radiance² + 0.01), by the standard errors; NaN without them.")
+        .def("merge", &Film::merge, py::arg("other"),
+             "Adds the other film's samples, as if this film had taken them too. Raises Error, and changes nothing, where\n"
+             "the films differ in scene, size or settings other than the seed, or have samples in common. Arrays taken\n"
+             "before keep their values.")
+        .def("copy", [](const Film& film) { return Film(film); }, "A film that merges on its own; memory is shared till then.")
+        .def("__copy__", [](const Film& film) { return Film(film); })
+        .def(
+            "save", [](const Film& film, const py::object& path) {
+                const std::string name = path_of(path);
+                const py::gil_scoped_release others_run;
+                film.save(name);
+            },
+            py::arg("path"),
+            "Writes .exr (all layers, float32), .hdr or .png (tone-mapped). The file appears whole or not at all.")
+        .def(
+            "tone_mapped",
+            [](const Film& film, double exposure) {
+                return array_of(tone_mapped(film, exposure), {film.height(), film.width(), 3});
+            },
+            py::arg("exposure") = 0.0, "Float32 (h, w, 3), display values from 0 to 1; exposure in EV, powers of two.")
+        .def("__repr__", &shown)
+        .def("_repr_png_", &png);
+}
+
+}  // namespace diptych::python

@@ -1,0 +1,265 @@
+// Settings in Python: immutable, made of keywords that are named as the command line's options.
+#include <functional>
+#include <limits>
+
+#include "bindings.h"
+
+namespace diptych::python {
+
+namespace {
+
+struct Field {
+    const char* name;
+    const char* doc;
+    std::function<py::object(const Settings&)> get;
+    std::function<void(Settings&, const py::object&)> set;
+    py::object range = py::none();  // of a number: (least, most)
+};
+
+template <typename T>
+struct Choice {
+    const char* name;
+    T value;
+};
+
+template <typename T>
+using Choices = std::vector<Choice<T>>;
+
+const Choices<Integrator> integrators = {{"brdf", Integrator::brdf},
+                                         {"direct", Integrator::direct},
+                                         {"path", Integrator::path},
+                                         {"ris", Integrator::ris},
+                                         {"restir", Integrator::restir}};
+const Choices<BrdfModel> brdfs = {{"ggx", BrdfModel::ggx}, {"blinn-phong", BrdfModel::blinn_phong}};
+const Choices<NormalMaps> normal_maps = {{"shading", NormalMaps::shading}, {"microfacet", NormalMaps::microfacet}};
+const Choices<SamplerKind> samplers = {
+    {"independent", SamplerKind::independent}, {"hammersley", SamplerKind::hammersley}, {"sobol", SamplerKind::sobol}};
+const Choices<MisHeuristic> heuristics = {{"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}};
+const Choices<ResamplingMis> resampling_mis = {{"pairwise", ResamplingMis::pairwise},
+                                               {"balance", ResamplingMis::balance},
+                                               {"1-over-z", ResamplingMis::one_over_z},
+                                               {"biased-1-over-m", ResamplingMis::biased_one_over_m}};
+const Choices<ResamplingVisibility> resampling_visibility = {{"shading", ResamplingVisibility::shading},
+                                                             {"target", ResamplingVisibility::target},
+                                                             {"biased-initial", ResamplingVisibility::biased_initial},
+                                                             {"biased-final", ResamplingVisibility::biased_final}};
+
+std::string text_of(const py::handle& value) {
+    return py::str(value);
+}
+
+[[noreturn]] void refuse(const char* name, const py::handle& value, const std::string& why) {
+    throw SettingError(std::string(name) + ": " + text_of(value) + " " + why);
+}
+
+/// A member of Settings or of its ResamplingSettings.
+template <typename T>
+T& member(Settings& settings, T Settings::* field) {
+    return settings.*field;
+}
+template <typename T>
+T& member(Settings& settings, T ResamplingSettings::* field) {
+    return settings.resampling.*field;
+}
+template <typename Pointer>
+auto member(const Settings& settings, Pointer field) {
+    return member(const_cast<Settings&>(settings), field);
+}
+
+template <typename T, typename Pointer>
+Field choice(const char* name, Pointer field, const Choices<T>& choices, const char* doc) {
+    const auto get = [field, &choices](const Settings& settings) -> py::object {
+        for (const Choice<T>& each : choices) {
+            if (each.value == member(settings, field)) {
+                return py::str(each.name);
+            }
+        }
+        throw Error("a setting has a value without a name");
+    };
+    const auto set = [name, field, &choices](Settings& settings, const py::object& value) {
+        std::string names;
+        for (const Choice<T>& each : choices) {
+            if (py::isinstance<py::str>(value) && text_of(value) == each.name) {
+                member(settings, field) = each.value;
+                return;
+            }
+            names += (names.empty() ? "" : ", ") + std::string(each.name);
+        }
+        throw SettingError(std::string(name) + " " + text_of(value) + ": there are only " + names);
+    };
+    return {name, doc, get, set};
+}
+
+/// The integers of Python and of NumPy, but no truth value.
+long long integer_of(const char* name, const py::handle& value) {
+    if (PyBool_Check(value.ptr()) != 0 || PyIndex_Check(value.ptr()) == 0) {
+        throw py::type_error(std::string(name) + ": wants an integer");
+    }
+    const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    int overflow = 0;
+    const long long result = index ? PyLong_AsLongLongAndOverflow(index.ptr(), &overflow) : -1;
+    if (PyErr_Occurred() != nullptr) {
+        throw py::error_already_set();
+    }
+    return overflow == 0 ? result : overflow * std::numeric_limits<long long>::max();
+}
+
+template <typename Pointer>
+Field integer(const char* name, Pointer field, long long least, long long most, const char* doc) {
+    const auto get = [field](const Settings& settings) -> py::object { return py::int_(member(settings, field)); };
+    const auto set = [=](Settings& settings, const py::object& value) {
+        const long long number = integer_of(name, value);
+        if (number < least || number > most) {
+            refuse(name, value, "is not a number from " + std::to_string(least) + " to " + std::to_string(most));
+        }
+        auto& target = member(settings, field);
+        target = static_cast<std::remove_reference_t<decltype(target)>>(number);
+    };
+    return {name, doc, get, set, py::make_tuple(least, most)};
+}
+
+constexpr float unlimited = std::numeric_limits<float>::max();
+constexpr float positive = std::numeric_limits<float>::min();
+
+template <typename Pointer>
+Field number(const char* name, Pointer field, float least, float most, const char* doc) {
+    const auto get = [field](const Settings& settings) -> py::object { return py::float_(member(settings, field)); };
+    const auto set = [=](Settings& settings, const py::object& value) {
+        const double number = PyFloat_AsDouble(value.ptr());
+        if (PyErr_Occurred() != nullptr) {
+            throw py::error_already_set();
+        }
+        if (!(number >= least && number <= most)) {
+            refuse(name, value, most < unlimited ? "is not a number from 0 to 1" : "is not a positive number");
+        }
+        member(settings, field) = static_cast<float>(number);
+    };
+    return {name, doc, get, set, py::make_tuple(least, most)};
+}
+
+template <typename Pointer>
+Field flag(const char* name, Pointer field, const char* doc) {
+    const auto get = [field](const Settings& settings) -> py::object { return py::bool_(member(settings, field)); };
+    const auto set = [name, field](Settings& settings, const py::object& value) {
+        if (!py::isinstance<py::bool_>(value)) {
+            throw py::type_error(std::string(name) + ": wants True or False");
+        }
+        member(settings, field) = value.cast<bool>();
+    };
+    return {name, doc, get, set};
+}
+
+Field size() {
+    const auto get = [](const Settings& settings) -> py::object {
+        return py::make_tuple(settings.size[0], settings.size[1]);
+    };
+    const auto set = [](Settings& settings, const py::object& value) {
+        if (!py::isinstance<py::sequence>(value) || py::len(value) != 2) {
+            throw py::type_error("size: wants (width, height)");
+        }
+        constexpr long long largest_side = 32768;
+        constexpr long long largest_area = 1LL << 28;
+        const py::sequence sides = value;
+        const long long width = integer_of("size", sides[0]);
+        const long long height = integer_of("size", sides[1]);
+        if (width < 1 || height < 1 || width > largest_side || height > largest_side) {
+            refuse("size", value, "is not (width, height), each from 1 to " + std::to_string(largest_side));
+        }
+        if (width * height > largest_area) {
+            refuse("size", value, "has more than " + std::to_string(largest_area) + " pixels");
+        }
+        settings.size = {static_cast<int>(width), static_cast<int>(height)};
+    };
+    return {"size", "(width, height) in pixels.", get, set};
+}
+
+const std::vector<Field>& fields() {
+    using S = Settings;
+    using R = ResamplingSettings;
+    // Left to the process's end: the ranges are objects of Python, which is gone when statics are destroyed.
+    static const auto* all = new std::vector<Field>{
+        choice("integrator", &S::integrator, integrators, "brdf, direct, path, ris or restir; the oracle heeds none."),
+        size(),
+        integer("max_depth", &S::max_depth, 0, 65535, "Scattering events; 1 is emission and direct light."),
+        integer("seed", &S::seed, 0, 0xFFFFFFFFLL, "Another seed gives independent noise."),
+        integer("camera", &S::camera, 0, std::numeric_limits<int>::max(), "Index into Scene.cameras."),
+        choice("sampler", &S::sampler, samplers, "independent, hammersley or sobol."),
+        integer("sample_count", &S::sample_count, 0, 0xFFFFFFFFLL,
+                "Samples a pixel that a Hammersley set is laid out for; diptych.render takes spp where it is not given."),
+        choice("mis", &S::mis, heuristics, "MIS weights of path: power or balance."),
+        choice("brdf", &S::brdf, brdfs, "Microfacet model: ggx or blinn-phong."),
+        choice("normal_maps", &S::normal_maps, normal_maps, "What a normal map does: shading or microfacet."),
+        flag("standard_error", &S::standard_error, "Keep second moments, and so Film.standard_error."),
+        flag("first_hit", &S::first_hit, "Keep the layers albedo, normal and depth."),
+        integer("candidates", &R::light_candidates, 1, 1024, "ris, restir: light points a pixel and frame."),
+        number("near_share", &R::near_share, 0, 1, "ris, restir: share of the candidates picked for being close too."),
+        flag("bsdf_candidate", &R::bsdf_candidate, "ris, restir: one more candidate by sampling the material."),
+        flag("temporal", &R::temporal, "restir: reuse the frame before."),
+        integer("spatial_passes", &R::spatial_passes, 0, 8, "restir: times that neighbours are reused."),
+        integer("neighbors", &R::neighbors, 1, 8, "restir: neighbours of each such pass."),
+        number("reuse_radius", &R::radius, positive, unlimited, "restir: the neighbours lie within, pixels."),
+        number("confidence_cap", &R::confidence_cap, positive, unlimited, "restir: of the frame before, in frames."),
+        choice("reuse_mis", &R::mis, resampling_mis, "restir: pairwise, balance, 1-over-z or biased-1-over-m."),
+        choice("reuse_visibility", &R::visibility, resampling_visibility,
+               "ris, restir: shading, target, biased-initial or biased-final."),
+    };
+    return *all;
+}
+
+Settings changed(Settings settings, const py::kwargs& changes) {
+    for (const auto& [key, value] : changes) {
+        const std::string name = text_of(key);
+        const auto field = std::find_if(fields().begin(), fields().end(), [&](const Field& each) { return name == each.name; });
+        if (field == fields().end()) {
+            throw py::type_error("there is no setting " + name);
+        }
+        field->set(settings, py::reinterpret_borrow<py::object>(value));
+    }
+    return settings;
+}
+
+std::string shown(const Settings& settings) {
+    std::string parts;
+    for (const Field& field : fields()) {
+        const py::object value = field.get(settings);
+        if (!value.equal(field.get(Settings{}))) {
+            parts += (parts.empty() ? "" : ", ") + std::string(field.name) + "=" + std::string(py::repr(value));
+        }
+    }
+    return "Settings(" + parts + ")";
+}
+
+}  // namespace
+
+Backend backend_named(const std::string& name) {
+    try {
+        return backend_from(name);
+    } catch (const Error& error) {
+        throw SettingError(error.what());
+    }
+}
+
+void bind_settings(py::module_& module) {
+    py::class_<Settings> settings(module, "Settings",
+                                  "How a scene is rendered: immutable. Keywords are the command line's options.\n\n"
+                                  ">>> import diptych as dp\n"
+                                  ">>> dp.Settings(integrator=\"restir\", size=(640, 360)).replace(seed=7)\n"
+                                  "Settings(integrator='restir', size=(640, 360), seed=7)\n");
+    settings.def(py::init([](const py::kwargs& values) { return changed(Settings{}, values); }));
+    settings.def("replace", &changed, "The same settings but for the changes.");
+    settings.def("__repr__", &shown);
+    settings.def("__eq__", [](const Settings& a, const Settings& b) { return a == b; }, py::is_operator());
+    settings.attr("__hash__") = py::none();
+    py::dict ranges;
+    for (const Field& field : fields()) {
+        settings.def_property_readonly(field.name, field.get, field.doc);
+        if (!field.range.is_none()) {
+            ranges[field.name] = field.range;
+        }
+    }
+    settings.attr("ranges") = ranges;
+    module.def("devices", &devices, py::call_guard<py::gil_scoped_release>(),
+               "The Vulkan devices that can render, best first; empty where there are none.");
+}
+
+}  // namespace diptych::python
