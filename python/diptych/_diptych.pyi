@@ -344,6 +344,14 @@ class RenderResult:
     @property
     def seconds(self) -> float: ...
 
+class ReplayVertex:
+    @property
+    def position(self) -> Vec3: ...
+    @property
+    def emission(self) -> Vec3: ...
+    @property
+    def throughput(self) -> Vec3: ...
+
 class Session:
     def __init__(
         self, scene: Scene, backend: str, device: str, threads: int, validation: bool, settings: Settings
@@ -378,6 +386,7 @@ def load(
     ignore_extensions: Sequence[str] = (),
     strict: bool = False,
     allow_external: bool = False,
+    animation: str = "",
     complete: bool = True,
 ) -> Scene: ...
 def load_environment(path: Union[str, os.PathLike[str]]) -> Environment: ...

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Callable, Literal, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Callable, List, Literal, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _diptych
-from ._diptych import Film, Scene, Settings
+from ._diptych import Film, ReplayVertex, Scene, Settings
 from .rendering import SettingChanges, changed
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class Replay:
 
     radiance: Tuple[Rgb, Rgb]
     """Of the whole path in each session, W/(sr m²)."""
-    vertices: Tuple[int, int]
+    vertices: Tuple[List[ReplayVertex], List[ReplayVertex]]
     parts_at: Optional[int]
     """The vertex from which the two paths differ, or None."""
     text: str

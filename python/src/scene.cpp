@@ -94,9 +94,9 @@ void bind_values(py::module_& module) {
 }
 
 Scene loaded(const py::object& path, const std::vector<std::string>& ignore_extensions, bool strict, bool allow_external,
-             bool complete) {
+             const std::string& animation, bool complete) {
     std::vector<std::string> warnings;
-    LoadOptions options{ignore_extensions, strict, allow_external, complete,
+    LoadOptions options{ignore_extensions, strict, allow_external, animation, complete,
                         [&](const std::string& line) { warnings.push_back(line); }};
     const std::string file = path_of(path);
     Scene scene = [&] {
@@ -145,11 +145,13 @@ void bind_scene(py::module_& module) {
     bind_scene_environment(scene);
     bind_meshes(scene);
     module.def("load", &loaded, py::arg("path"), py::kw_only(), py::arg("ignore_extensions") = std::vector<std::string>(),
-               py::arg("strict") = false, py::arg("allow_external") = false, py::arg("complete") = true,
+               py::arg("strict") = false, py::arg("allow_external") = false, py::arg("animation") = "",
+               py::arg("complete") = true,
                "Loads a .gltf or .glb file.\n\n"
                "What it cannot show becomes a SceneWarning; strict raises Error instead. ignore_extensions names glTF\n"
                "extensions that the file requires and that are done without. allow_external reads what the file names\n"
-               "outside its folder too. complete adds a camera and a neutral sky where the scene has neither.");
+               "outside its folder too. animation is the name or the index of the one that plays; all play where it is empty.\n"
+               "complete adds a camera and a neutral sky where the scene has neither.");
     module.def(
         "look_at",
         [](const Point& eye, const Point& target, const Point& up, double vertical_fov) {

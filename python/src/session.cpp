@@ -141,7 +141,7 @@ py::dict replayed(BoundSession& a, BoundSession& b, std::array<int, 2> pixel, st
     use_both(a, b, [&](Session& first, Session& second) { result = replay(first, second, {pixel, sample, tolerance}); });
     py::dict members;
     members["radiance"] = py::make_tuple(py::tuple(py::cast(result.radiance[0])), py::tuple(py::cast(result.radiance[1])));
-    members["vertices"] = py::make_tuple(result.vertices[0], result.vertices[1]);
+    members["vertices"] = py::make_tuple(result.vertices[0], result.vertices[1]);  // lists of ReplayVertex
     members["parts_at"] = result.parts_at;
     members["text"] = result.text;
     return members;
@@ -165,6 +165,16 @@ void bind_session(py::module_& module) {
         .def_readonly("spp", &RenderResult::spp, "Samples that every pixel was given by this call.")
         .def_readonly("seconds", &RenderResult::seconds)
         .def("__repr__", [](const RenderResult& result) { return "RenderResult(spp=" + std::to_string(result.spp) + ")"; });
+    py::class_<ReplayVertex>(module, "ReplayVertex", "Where a path met a surface, or left the scene.")
+        .def_property_readonly(
+            "position", [](const ReplayVertex& vertex) { return to_python(vertex.position); },
+            "(x, y, z), metres, world space of the file: where the ray ended.")
+        .def_property_readonly(
+            "emission", [](const ReplayVertex& vertex) { return to_python(vertex.emission); },
+            "(r, g, b) that it adds to the path's radiance, throughput and MIS weight included.")
+        .def_property_readonly(
+            "throughput", [](const ReplayVertex& vertex) { return to_python(vertex.throughput); },
+            "(r, g, b), of what comes after.");
     using S = BoundSession;
     py::class_<S>(module, "Session", session_doc)
         .def(py::init([](const Scene& scene, const std::string& backend, const std::string& device, int threads,

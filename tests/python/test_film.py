@@ -1,0 +1,125 @@
+import copy
+import gc
+
+import numpy as np
+import pytest
+
+import diptych as dp
+
+
+@pytest.fixture
+def film(floor):
+    return dp.render(floor, spp=8, size=(16, 12), seed=1)
+
+
+def test_arrays_are_read_only_views_of_the_films_memory(film):
+    for name, channels in [("radiance", (3,)), ("standard_error", (3,)), ("albedo", (3,)), ("normal", (3,)), ("depth", ())]:
+        array = film[name]
+        assert array.shape == (12, 16, *channels) and array.dtype == np.float32
+        assert not array.flags.writeable and not array.flags.owndata
+        with pytest.raises(ValueError):
+            array.setflags(write=True)
+        # Two views start at one address: neither is a copy.
+        assert array.__array_interface__["data"][0] == film[name].__array_interface__["data"][0]
+    assert np.shares_memory(film.radiance, film["radiance"])
+    assert np.shares_memory(film.radiance, film.copy().radiance)
+
+
+def test_an_array_outlives_its_film_and_session(floor):
+    with dp.Session(floor, size=(64, 48)) as session:
+        session.render(4)
+        array = session.film().radiance
+        expected = array.copy()
+    del session
+    gc.collect()
+    others = [np.full((48, 64, 3), i, np.float32) for i in range(50)]  # would take the place of freed memory
+    assert np.array_equal(array, expected) and len(others) == 50
+
+
+def test_radiance_is_the_mean_of_the_sums(film):
+    mean = film.sums / film.sample_counts[..., None]
+    np.testing.assert_allclose(film.radiance, mean, rtol=1e-6)
+    assert film.sums.dtype == np.float64 and film.sample_counts.dtype == np.uint32
+    assert (film.sample_counts == 8).all() and film.samples == 8 * 16 * 12
+
+
+def test_the_standard_error_is_that_of_many_runs(floor):
+    floor.environment.scale = (1, 1, 1)
+    floor.lights.clear()  # light from the sky alone is noisy
+    runs = [dp.render(floor, spp=16, size=(16, 12), seed=seed, sampler="independent") for seed in range(40)]
+    spread = np.std([run.radiance for run in runs], axis=0, ddof=1)
+    stated = np.sqrt(np.mean([run.standard_error**2 for run in runs], axis=0))
+    lit = spread > 0.02
+    assert lit.sum() > 100
+    assert np.median(stated[lit] / spread[lit]) == pytest.approx(1, rel=0.1)
+
+
+def test_first_hits_are_the_floors(film):
+    on_floor = film["depth"] > 0
+    assert on_floor.any() and film["normal"][10, 8] == pytest.approx((0, 1, 0), abs=1e-5)
+    assert film["albedo"][10, 8] == pytest.approx((1, 1, 1), abs=1e-5)
+
+
+def test_layers_that_were_not_kept_are_refused_by_name(floor):
+    film = dp.render(floor, spp=2, size=(8, 6), standard_error=False, first_hit=False)
+    assert film.layers == ["radiance"] and np.isnan(film.relmse_estimate)
+    with pytest.raises(dp.Error, match="standard_error"):
+        film.standard_error
+    with pytest.raises(dp.Error, match="albedo"):
+        film["albedo"]
+    with pytest.raises(KeyError, match="shadow"):
+        film["shadow"]
+
+
+def test_merging_adds_samples_and_leaves_arrays_as_they_were(floor):
+    first, second, both = (dp.render(floor, spp=8, size=(16, 12), seed=seed) for seed in (1, 2, 1))
+    view = both.radiance
+    both.merge(second)
+    assert both.spp == 16 and np.array_equal(both.sums, first.sums + second.sums)
+    assert np.array_equal(view, first.radiance) and not np.array_equal(both.radiance, view)
+
+
+def test_films_that_do_not_belong_together_are_refused(film, floor):
+    before = film.sums
+    others = {"size": dp.render(floor, spp=2, size=(8, 6), seed=2), "integrator": dp.render(floor, spp=2, size=(16, 12),
+              seed=2, integrator="direct"), "same samples": dp.render(floor, spp=2, size=(16, 12), seed=1)}
+    for reason, other in others.items():
+        with pytest.raises(dp.Error):
+            film.merge(other)
+        assert np.array_equal(film.sums, before), reason
+
+
+def test_a_copy_merges_on_its_own(floor):
+    film = dp.render(floor, spp=2, size=(8, 6), seed=1)
+    other = copy.copy(film)
+    other.merge(dp.render(floor, spp=2, size=(8, 6), seed=2))
+    assert (film.spp, other.spp) == (2, 4)
+
+
+def test_a_saved_film_is_the_film(film, tmp_path):
+    film.save(tmp_path / "film.exr")
+    film.save(str(tmp_path / "film.hdr"))
+    dim = dp.compare(tmp_path / "film.exr", tmp_path / "film.exr")
+    assert (dim.mse, dim.fraction_equal) == (0, 1)
+    assert dp.compare(tmp_path / "film.hdr", tmp_path / "film.exr").relmse < 1e-4  # .hdr keeps 8 bits
+    with pytest.raises(dp.Error, match="film.docx"):
+        film.save(tmp_path / "film.docx")
+    with pytest.raises(dp.Error, match="nowhere"):
+        film.save(tmp_path / "nowhere" / "film.exr")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["film.exr", "film.hdr"]
+
+
+def test_a_film_shows_itself(film):
+    assert repr(film).startswith("<Film 16x12, 8 spp, cpu:path, relMSE ")
+    png = film._repr_png_()
+    assert png[:8] == b"\x89PNG\r\n\x1a\n"
+    assert (int.from_bytes(png[16:20], "big"), int.from_bytes(png[20:24], "big"), png[24]) == (16, 12, 8)
+    shown = film.tone_mapped()
+    assert shown.shape == (12, 16, 3) and 0 <= shown.min() and shown.max() <= 1
+    assert film.tone_mapped(exposure=2).mean() > shown.mean()
+
+
+def test_a_film_says_how_it_was_made(film):
+    assert (film.width, film.height, film.spp, film.backend, film.nonfinite) == (16, 12, 8, "cpu", 0)
+    assert film.settings == dp.Settings(size=(16, 12), seed=1, sample_count=8)
+    assert film.rays > film.samples and film.seconds > 0

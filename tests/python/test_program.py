@@ -1,0 +1,63 @@
+"""The package against the program: the same bits, and no time lost."""
+
+import statistics
+import time
+
+import numpy as np
+import pytest
+
+import diptych as dp
+from conftest import SCENES
+
+
+@pytest.mark.parametrize("panel, integrator, options, settings", [
+    ("cpu", "path", [], {}),
+    ("cpu", "path", ["--sampler", "hammersley", "--mis", "balance", "--max-depth", 3],
+     {"sampler": "hammersley", "mis": "balance", "max_depth": 3}),
+    ("cpu", "restir", ["--spatial-passes", 2, "--reuse-mis", "balance"], {"spatial_passes": 2, "reuse_mis": "balance"}),
+    ("vulkan", "path", [], {}),
+    ("vulkan", "restir", [], {}),
+    ("oracle", None, [], {}),
+])
+@pytest.mark.parametrize("scene", ["cornell", "brdf-grid"])
+def test_a_film_has_the_bits_of_the_programs(program, tmp_path, request, scene, panel, integrator, options, settings):
+    if panel == "vulkan":
+        request.getfixturevalue("vulkan")
+    if integrator:
+        options, settings = ["--integrator", integrator, *options], {"integrator": integrator, **settings}
+    path, file, own = SCENES / f"{scene}.gltf", tmp_path / "program.exr", tmp_path / "python.exr"
+    program("render", path, "--backend", panel, "--spp", 4, "--seed", 7, "--size", "32x24", "-o", file, *options)
+    dp.render(dp.load(path), backend=panel, spp=4, seed=7, size=(32, 24), **settings).save(own)
+    same = dp.compare(own, file)
+    assert (same.mse, same.fraction_equal, same.nonfinite) == (0, 1, 0)
+
+
+@pytest.mark.nightly
+def test_a_render_takes_the_programs_time(program, tmp_path):
+    """A render of some 5 s by the program's own clock, in turn; the median of the ratios is 1.01 at most."""
+    path, spp = SCENES / "cornell.gltf", 64
+    settings = {"size": (256, 256), "seed": 1}
+    while dp.render(dp.load(path), spp=spp, **settings).seconds < 4:
+        spp *= 2
+    import json
+
+    def of_program():
+        file = tmp_path / "film.exr"
+        text = program("render", path, "--spp", spp, "--size", "256x256", "--seed", 1, "-o", file, "--json")
+        return json.loads(text)["seconds"]
+
+    def of_python():
+        scene = dp.load(path)
+        began = time.monotonic()
+        with dp.Session(scene, **settings) as session:
+            opened = time.monotonic()
+            session.render(spp)
+        return time.monotonic() - opened, opened - began
+
+    ratios = []
+    for _ in range(7):
+        reference = of_program()
+        seconds, _ = of_python()
+        ratios.append(seconds / reference)
+    print("ratios:", np.round(ratios, 4))
+    assert statistics.median(ratios) <= 1.01
