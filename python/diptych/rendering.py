@@ -144,7 +144,8 @@ def render(
     >>> film.radiance[0, 0].tolist()  # W/(sr m²)
     [0.25, 0.5, 1.0]
     """
-    settings.setdefault("sample_count", spp)
+    if spp > 0:
+        settings.setdefault("sample_count", spp)
     with Session(scene, backend=backend, device=device, threads=threads, **settings) as session:
         session.render(spp, progress=progress, seconds=seconds, relmse=relmse)
         return session.film()

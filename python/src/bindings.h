@@ -43,6 +43,8 @@ inline std::string path_of(const py::object& path) {
 
 /// As backend_from, but its error is a SettingError.
 Backend backend_named(const std::string& name);
+/// Refuses what the backend would not heed.
+BackendChoice choice_of(const std::string& backend, const std::string& device, int threads, bool validation);
 
 /// What an object shows: a read-only array on memory that `owner` keeps alive.
 template <typename T>

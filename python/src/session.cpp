@@ -75,6 +75,9 @@ public:
 
     RenderResult render(std::uint32_t count, std::optional<std::uint32_t> first, const py::object& progress, double seconds,
                         double relmse) {
+        if (count == 0 && !(seconds > 0) && !(relmse > 0)) {
+            throw SettingError("count: 0 is no limit, and needs seconds or relmse");
+        }
         Reporter reporter(progress);
         const RenderOptions options{std::ref(reporter), reporter.token(), seconds, relmse};
         const RenderResult result = work([&](Session& session) {
@@ -179,7 +182,7 @@ void bind_session(py::module_& module) {
     py::class_<S>(module, "Session", session_doc)
         .def(py::init([](const Scene& scene, const std::string& backend, const std::string& device, int threads,
                          bool validation, const Settings& settings) {
-            return std::make_unique<S>(scene, BackendChoice{backend_named(backend), device, threads, validation}, settings);
+            return std::make_unique<S>(scene, choice_of(backend, device, threads, validation), settings);
         }))
         .def("render", &S::render, py::arg("count"), py::arg("first"), py::arg("progress"), py::arg("seconds"),
              py::arg("relmse"))

@@ -184,7 +184,7 @@ const std::vector<Field>& fields() {
         integer("seed", &S::seed, 0, 0xFFFFFFFFLL, "Another seed gives independent noise."),
         integer("camera", &S::camera, 0, std::numeric_limits<int>::max(), "Index into Scene.cameras."),
         choice("sampler", &S::sampler, samplers, "independent, hammersley or sobol."),
-        integer("sample_count", &S::sample_count, 0, 0xFFFFFFFFLL,
+        integer("sample_count", &S::sample_count, 1, 0xFFFFFFFFLL,
                 "Samples a pixel that a Hammersley set is laid out for; diptych.render takes spp where it is not given."),
         choice("mis", &S::mis, heuristics, "MIS weights of path: power or balance."),
         choice("brdf", &S::brdf, brdfs, "Microfacet model: ggx or blinn-phong."),
@@ -237,6 +237,21 @@ Backend backend_named(const std::string& name) {
     } catch (const Error& error) {
         throw SettingError(error.what());
     }
+}
+
+BackendChoice choice_of(const std::string& backend, const std::string& device, int threads, bool validation) {
+    const BackendChoice choice{backend_named(backend), device, threads, validation};
+    const bool vulkan = choice.backend == Backend::vulkan;
+    if (!vulkan && !device.empty()) {
+        throw SettingError("device: goes with backend vulkan");
+    }
+    if (!vulkan && validation) {
+        throw SettingError("validation: goes with backend vulkan");
+    }
+    if (vulkan && threads != 0) {
+        throw SettingError("threads: goes with backend cpu or oracle");
+    }
+    return choice;
 }
 
 void bind_settings(py::module_& module) {

@@ -14,18 +14,11 @@ def test_one_image_passes(floor):
     assert len(seen) >= 8 and seen[-1][1] >= 8
 
 
-def test_two_images_fail(cornell):
-    """Direct light alone is darker than all paths."""
-    verdict = dp.verify(cornell, "cpu:direct", "cpu:path", runs=8, spp=16, size=(32, 32))
-    assert verdict.verdict == "FAIL" and verdict.bias_percent < -10 and verdict.p <= 1e-3
-    assert np.nanmin(verdict.p_values) < 1e-3
-    assert abs(verdict.bias_percent) > verdict.min_detectable_percent
-
-
 def test_a_biased_setting_fails(cornell):
     verdict = dp.verify(cornell, "cpu:restir", "cpu:path", runs=16, spp=16, size=(48, 48),
                         reuse_visibility="biased-initial", reuse_mis="biased-1-over-m", reuse_radius=30, neighbors=8)
-    assert verdict.verdict == "FAIL" and verdict.p <= 1e-3
+    assert verdict.verdict == "FAIL" and verdict.p <= 1e-3 and verdict.p_values.shape == (3, 3)
+    assert abs(verdict.bias_percent) > verdict.ci95 or np.nanmin(verdict.p_values) <= 1e-3
 
 
 def test_the_device_passes_against_the_oracle(floor, vulkan):

@@ -1,5 +1,6 @@
 """The package against the program: the same bits, and no time lost."""
 
+import json
 import statistics
 import time
 
@@ -39,7 +40,7 @@ def test_a_render_takes_the_programs_time(program, tmp_path):
     settings = {"size": (256, 256), "seed": 1}
     while dp.render(dp.load(path), spp=spp, **settings).seconds < 4:
         spp *= 2
-    import json
+
 
     def of_program():
         file = tmp_path / "film.exr"

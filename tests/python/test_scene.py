@@ -118,9 +118,9 @@ def test_matrices_are_indexed_by_row_and_column():
 def test_a_mesh_is_placed_by_its_transform(floor):
     raised = np.eye(4)
     raised[1, 3] = 0.5
-    depth = dp.render(floor, spp=4, size=(16, 12))["depth"][9, 8]
+    depth = dp.render(floor, spp=4, size=(16, 12))["depth"][6, 8]
     floor.add_mesh(SQUARE, HALVES, material="floor", transform=raised, name="step")
-    assert dp.render(floor, spp=4, size=(16, 12))["depth"][9, 8] < depth
+    assert dp.render(floor, spp=4, size=(16, 12))["depth"][6, 8] < depth
     assert (floor.mesh_count, floor.triangle_count, floor.instances["step"].position) == (2, 4, (0, 0.5, 0))
 
 
@@ -129,7 +129,8 @@ def test_a_mesh_is_placed_by_its_transform(floor):
     ({"positions": SQUARE.astype(complex)}, "positions: wants float32"),
     ({"positions": [("a", "b", "c")]}, "positions: wants float32"),
     ({"positions": SQUARE * np.float32("nan")}, "finite"),
-    ({"positions": SQUARE.astype(float) * 1e300}, "finite"),
+    pytest.param({"positions": SQUARE.astype(float) * 1e300}, "finite",
+                 marks=pytest.mark.filterwarnings("ignore:overflow")),
     ({"triangles": HALVES.astype(float)}, "triangles: wants integers"),
     ({"triangles": HALVES.ravel()}, r"triangles: wants integers \(n, 3\), not \(6,\)"),
     ({"triangles": HALVES + 1}, "4"),

@@ -37,7 +37,7 @@ def test_ranges_are_the_programs(program):
     """Those with two ends stand in the program's help."""
     text = program("render", "--help")
     described = {name.replace("-", "_"): (float(least), float(most)) for name, least, most in
-                 re.findall(r"--([a-z-]+) [^\[]*?in \[(\S+) - (\S+)\]", text)}
+                 re.findall(r"--([a-z-]+) (?:(?!\n +-)[^\[])*?in \[(\S+) - (\S+)\]", text)}
     ranges = {name: ends for name, ends in dp.Settings.ranges.items() if name in described}
     assert ranges == {name: described[name] for name in ranges} and len(ranges) >= 5
 
@@ -60,8 +60,11 @@ def test_the_message_is_the_programs():
         dp.Settings(integrator="photon")
 
 
-@pytest.mark.parametrize("arguments, says", [({"backend": "gpu"}, "cpu, vulkan, oracle"), ({"camera": 7}, "camera"),
-                                             ({"device": "x"}, "device"), ({"camera": "side"}, "side")])
+@pytest.mark.parametrize("arguments, says", [({"backend": "gpu"}, "cpu, vulkan and oracle"), ({"camera": 7}, "camera"),
+                                             ({"device": "x"}, "device: goes with backend vulkan"),
+                                             ({"backend": "vulkan", "threads": 2}, "threads: goes with backend cpu"),
+                                             ({"validation": True}, "validation: goes with backend vulkan"),
+                                             ({"camera": "side"}, "side")])
 def test_what_a_session_cannot_have_is_refused(floor, arguments, says):
     with pytest.raises(dp.Error, match=says):
         dp.Session(floor, **arguments)
