@@ -46,6 +46,9 @@ Backend backend_named(const std::string& name);
 /// Refuses what the backend would not heed.
 BackendChoice choice_of(const std::string& backend, const std::string& device, int threads, bool validation);
 
+/// The shortest decimal that single precision rounds to the value: a roughness of 0.3 reads as 0.3.
+double as_written(float value);
+
 /// What an object shows: a read-only array on memory that `owner` keeps alive.
 template <typename T>
 py::array view_of(const T* data, const std::vector<py::ssize_t>& shape, const py::object& owner) {

@@ -143,7 +143,7 @@ py::dict replayed(BoundSession& a, BoundSession& b, std::array<int, 2> pixel, st
     ReplayResult result;
     use_both(a, b, [&](Session& first, Session& second) { result = replay(first, second, {pixel, sample, tolerance}); });
     py::dict members;
-    members["radiance"] = py::make_tuple(py::tuple(py::cast(result.radiance[0])), py::tuple(py::cast(result.radiance[1])));
+    members["radiance"] = py::make_tuple(to_python(result.radiance[0]), to_python(result.radiance[1]));
     members["vertices"] = py::make_tuple(result.vertices[0], result.vertices[1]);  // lists of ReplayVertex
     members["parts_at"] = result.parts_at;
     members["text"] = result.text;

@@ -1,4 +1,6 @@
 // Settings in Python: immutable, made of keywords that are named as the command line's options.
+#include <algorithm>
+#include <charconv>
 #include <functional>
 #include <limits>
 
@@ -123,7 +125,7 @@ constexpr float positive = std::numeric_limits<float>::min();
 
 template <typename Pointer>
 Field number(const char* name, Pointer field, float least, float most, const char* doc) {
-    const auto get = [field](const Settings& settings) -> py::object { return py::float_(member(settings, field)); };
+    const auto get = [field](const Settings& settings) -> py::object { return py::float_(as_written(member(settings, field))); };
     const auto set = [=](Settings& settings, const py::object& value) {
         const double number = PyFloat_AsDouble(value.ptr());
         if (PyErr_Occurred() != nullptr) {
@@ -230,6 +232,14 @@ std::string shown(const Settings& settings) {
 }
 
 }  // namespace
+
+double as_written(float value) {
+    char text[32];
+    const char* end = std::to_chars(text, text + sizeof text, value).ptr;
+    double result = 0;
+    std::from_chars(text, end, result);
+    return result;
+}
 
 Backend backend_named(const std::string& name) {
     try {

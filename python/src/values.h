@@ -51,11 +51,17 @@ template <typename T>
 py::object to_python(const T& value) {
     if constexpr (std::is_same_v<T, Matrix>) {
         return to_array(value);
+    } else if constexpr (std::is_same_v<T, float>) {
+        return py::float_(as_written(value));
     } else if constexpr (std::is_enum_v<T>) {
         const auto& names = names_of(value);
         return py::str(std::find_if(std::begin(names), std::end(names), [&](auto& each) { return each.second == value; })->first);
     } else if constexpr (requires { std::tuple_size<T>::value; }) {
-        return py::tuple(py::cast(value));
+        py::tuple parts(value.size());
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            parts[i] = to_python(value[i]);
+        }
+        return parts;
     } else {
         return py::cast(value);
     }

@@ -84,6 +84,16 @@ def test_an_appended_element_is_the_scenes():
     assert other.lights[0].name == "b" and scene.lights[0].name == "c"
 
 
+def test_single_precision_reads_as_it_was_written(floor):
+    for value in (0.3, 0.1, 1 / 3, 1e-7):
+        floor.materials[0].roughness = value
+        read = floor.materials[0].roughness
+        assert np.float32(read) == np.float32(value) and len(repr(read)) <= len(repr(value))
+    floor.materials[0].emission = (0.1, 0.2, 17.2)
+    assert floor.materials[0].emission == (0.1, 0.2, 17.2)
+    assert dp.Settings(near_share=0.3).near_share == 0.3
+
+
 def test_parts_of_a_value_cannot_be_edited_in_vain(floor):
     with pytest.raises(TypeError):
         floor.materials[0].base_color[0] = 0

@@ -1,4 +1,7 @@
+import os
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -80,3 +83,28 @@ def test_the_exceptions_form_a_tree():
         assert issubclass(special, dp.Error)
     assert issubclass(dp.SettingError, ValueError) and issubclass(dp.UnknownName, KeyError)
     assert str(dp.UnknownName("plain text")) == "plain text"
+
+
+def in_a_new_process(code, **environment):
+    return subprocess.run([sys.executable, "-c", "import diptych as dp\n" + code], env={**os.environ, **environment},
+                          capture_output=True, text=True, timeout=120)
+
+
+def test_a_machine_without_a_device_says_so():
+    result = in_a_new_process("print(dp.devices())\n"
+                              "try: dp.Session(dp.Scene(), backend='vulkan')\n"
+                              "except dp.NoDevice as error: print(type(error).__mro__[1] is dp.Error, error)\n",
+                              VK_DRIVER_FILES="/nonexistent.json", VK_ICD_FILENAMES="/nonexistent.json")
+    assert result.stdout.startswith("[]\nTrue ") and result.returncode == 0, result.stdout + result.stderr
+
+
+def test_a_session_that_is_left_open_ends_with_the_process(backend):
+    result = in_a_new_process(f"session = dp.Session(dp.Scene(), backend={backend!r}, size=(8, 6))\n"
+                              "session.render(2)\nfilm = session.film()\nview = film.radiance\n")
+    assert (result.returncode, result.stderr) == (0, "")
+
+
+def test_importing_is_light():
+    """OpenImageIO, with its hundreds of libraries, is loaded at the first picture."""
+    code = "maps = open('/proc/self/maps').read()\nassert 'libdiptych.so' in maps and 'OpenImageIO' not in maps\n"
+    assert in_a_new_process(code).returncode == 0
