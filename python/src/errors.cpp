@@ -72,9 +72,9 @@ void bind_errors(py::module_& module) {
     py::register_exception_translator(translate);
 }
 
-void warn(const std::vector<std::string>& lines) {
+void warn(const std::vector<std::string>& lines, int depth) {
     for (const std::string& line : lines) {
-        if (PyErr_WarnEx(warning_type, line.c_str(), 2) != 0) {
+        if (PyErr_WarnEx(warning_type, line.c_str(), depth) != 0) {
             throw py::error_already_set();
         }
     }

@@ -103,7 +103,7 @@ Scene loaded(const py::object& path, const std::vector<std::string>& ignore_exte
         const py::gil_scoped_release others_run;
         return load(file, options);
     }();
-    warn(warnings);
+    warn(warnings, 1);
     return scene;
 }
 

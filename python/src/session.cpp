@@ -124,7 +124,7 @@ private:
 
     void issue_warnings() {
         const std::vector<std::string> lines = std::exchange(*warnings_, {});
-        warn(lines);
+        warn(lines, 2);  // the caller of diptych.Session, which calls this
     }
 
     std::shared_ptr<std::vector<std::string>> warnings_ = std::make_shared<std::vector<std::string>>();
