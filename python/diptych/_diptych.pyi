@@ -1,7 +1,8 @@
 """Types of the compiled part. Docstrings are the module's own: help(diptych.Material)."""
 
 import os
-from typing import Any, Callable, ClassVar, Dict, Generic, Iterator, List, Literal, Optional, Sequence, Tuple, TypeVar, Union, overload
+from typing import Any, Callable, ClassVar, Dict, Generic, Iterator, List, Literal, Optional, Sequence, Tuple, TypeVar
+from typing import Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -75,7 +76,9 @@ class Settings:
     def reuse_visibility(self) -> Literal["shading", "target", "biased-initial", "biased-final"]: ...
 
 class TextureSlot:
-    def __init__(self, texture: int = -1, uv_set: int = 0, u_row: Numbers = (1, 0, 0), v_row: Numbers = (0, 1, 0)) -> None: ...
+    def __init__(
+        self, texture: int = -1, uv_set: int = 0, u_row: Numbers = (1, 0, 0), v_row: Numbers = (0, 1, 0)
+    ) -> None: ...
     @property
     def texture(self) -> int: ...
     @property
@@ -194,7 +197,9 @@ class Light(_Placed):
     outer_cone: float
 
 class Instance(_Placed):
-    def __init__(self, *, name: str = "", mesh: int = -1, object_to_world: Rows = ..., position: Numbers = (0, 0, 0)) -> None: ...
+    def __init__(
+        self, *, name: str = "", mesh: int = -1, object_to_world: Rows = ..., position: Numbers = (0, 0, 0)
+    ) -> None: ...
     name: str
     mesh: int
     @property

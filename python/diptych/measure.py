@@ -135,7 +135,8 @@ def replay(
 ) -> Replay:
     """Traces one path in both sessions and finds where the two differ. Films stay as they are.
 
-    pixel: (x, y) from the top left. sample: which of the pixel's. tolerance: relative; smaller differences are rounding.
+    pixel: (x, y) from the top left. sample: which of the pixel's. tolerance: relative; smaller differences are
+    rounding.
 
     >>> import diptych as dp
     >>> scene = dp.Scene()

@@ -56,8 +56,8 @@ class Session(_diptych.Session):
     of cpu and oracle; 0 is one a core. validation: of vulkan, the validation layers. Other keywords are settings (see
     diptych.Settings).
 
-    A session sees edits of its scene at its next render. It is used by one thread at a time; several sessions may render
-    at once in several threads, since Python's lock is free while they render.
+    A session sees edits of its scene at its next render. It is used by one thread at a time; several sessions may
+    render at once in several threads, since Python's lock is free while they render.
 
     >>> import diptych as dp
     >>> scene = dp.Scene()

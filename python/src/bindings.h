@@ -33,8 +33,8 @@ void bind_film(py::module_& module);
 void bind_session(py::module_& module);
 void bind_measure(py::module_& module);
 
-/// Issues diptych.SceneWarning for each line, as of the line of Python that lies `depth` calls up. Throws where Python's
-/// filters make an error of it.
+/// Issues diptych.SceneWarning for each line, as of the line of Python that lies `depth` calls up. Throws where
+/// Python's filters make an error of it.
 void warn(const std::vector<std::string>& lines, int depth);
 
 /// Of a string or an os.PathLike.

@@ -59,7 +59,8 @@ public:
             }
             return Element<T>(element.get());
         }));
-        class_.def("__eq__", [](const Element<T>& a, const Element<T>& b) { return a.get() == b.get(); }, py::is_operator());
+        class_.def(
+            "__eq__", [](const Element<T>& a, const Element<T>& b) { return a.get() == b.get(); }, py::is_operator());
         class_.attr("__hash__") = py::none();
         class_.attr("_fields") = py::tuple();
         class_.def("__repr__", [](const py::object& self) {
@@ -141,7 +142,8 @@ void bind_elements(py::module_& module, const char* class_name, const char* kind
     using List = Elements<T>;
     py::class_<List> list(module, class_name);
     list.def("__len__", [](const List& self) { return self.list().size(); });
-    list.def("__getitem__", [](const List& self, py::ssize_t index) { return Element<T>(self.scene, self.index(index)); });
+    list.def("__getitem__",
+             [](const List& self, py::ssize_t index) { return Element<T>(self.scene, self.index(index)); });
     list.def("__getitem__", [kind](const List& self, const std::string& name) {
         return Element<T>(self.scene, self.index(kind, name));
     });
@@ -177,7 +179,8 @@ void bind_elements(py::module_& module, const char* class_name, const char* kind
         list.def("__delitem__", [](const List& self, py::ssize_t index) {
             self.list().erase(self.list().begin() + static_cast<std::ptrdiff_t>(self.index(index)));
         });
-        list.def("clear", [](const List& self) { self.list().clear(); }, "Deletes all elements.");
+        list.def(
+            "clear", [](const List& self) { self.list().clear(); }, "Deletes all elements.");
     }
 }
 

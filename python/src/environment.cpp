@@ -37,7 +37,8 @@ py::object to_view(const std::shared_ptr<const EnvironmentMap>& map) {
         return py::none();
     }
     auto* owned = new std::shared_ptr<const EnvironmentMap>(map);
-    const py::capsule owner(owned, [](void* memory) { delete static_cast<std::shared_ptr<const EnvironmentMap>*>(memory); });
+    const py::capsule owner(owned,
+                            [](void* memory) { delete static_cast<std::shared_ptr<const EnvironmentMap>*>(memory); });
     return view_of(map->texels.data()->data(), {map->height, map->width, 3}, owner);
 }
 
@@ -62,7 +63,8 @@ void bind_environment(py::module_& module) {
         .def_property(
             "map", [](const E& self) { return to_view(self.get().map); },
             [](E& self, const py::object& value) { self.get().map = to_map(value); },
-            "Float32 (h, w, 3), linear radiance of an equirectangular map whose centre looks along -Z; or None. Reading\n"
+            "Float32 (h, w, 3), linear radiance of an equirectangular map whose centre looks along -Z; or None. "
+            "Reading\n"
             "gives a read-only view; an array that is set is copied.");
     module.def(
         "load_environment", [](const py::object& path) { return E(load_environment(path_of(path))); }, py::arg("path"),

@@ -52,12 +52,14 @@ void bind_errors(py::module_& module) {
                           "The message is one line that names the file, the object in it and the reason.",
                           py::make_tuple(exception));
     const py::handle base = error_type;
-    setting_error_type = new_type(module, "SettingError", "A setting or an argument is out of range. Also a ValueError.",
-                                  py::make_tuple(base, py::handle(PyExc_ValueError)));
+    setting_error_type =
+        new_type(module, "SettingError", "A setting or an argument is out of range. Also a ValueError.",
+                 py::make_tuple(base, py::handle(PyExc_ValueError)));
     py::dict plain_message;  // a KeyError would show its message in quotes
     plain_message["__str__"] = exception.attr("__str__");
-    unknown_name_type = new_type(module, "UnknownName", "The scene or the film has nothing of that name. Also a KeyError.",
-                                 py::make_tuple(base, py::handle(PyExc_KeyError)), plain_message);
+    unknown_name_type =
+        new_type(module, "UnknownName", "The scene or the film has nothing of that name. Also a KeyError.",
+                 py::make_tuple(base, py::handle(PyExc_KeyError)), plain_message);
     no_device_type = new_type(module, "NoDevice",
                               "The machine has no device that the backend needs. The message lists what is missing.",
                               py::make_tuple(base));
@@ -65,8 +67,8 @@ void bind_errors(py::module_& module) {
                                 "The device was lost while it worked. Films taken before stay whole; the session can "
                                 "only be closed.",
                                 py::make_tuple(base));
-    interrupted_type = new_type(module, "Interrupted", "A call that has no partial result was stopped.",
-                                py::make_tuple(base));
+    interrupted_type =
+        new_type(module, "Interrupted", "A call that has no partial result was stopped.", py::make_tuple(base));
     warning_type = new_type(module, "SceneWarning", "A part of a scene that is not rendered as its file asks.",
                             py::make_tuple(py::handle(PyExc_UserWarning)));
     py::register_exception_translator(translate);

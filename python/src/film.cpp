@@ -8,14 +8,13 @@ namespace diptych::python {
 
 namespace {
 
-constexpr const char* film_doc =
-    "What a session has rendered: a value. Arrays have row 0 on top.\n\n"
-    ">>> import diptych as dp\n"
-    ">>> scene = dp.Scene()\n"
-    ">>> scene.environment.scale = (0.5, 0.5, 0.5)\n"
-    ">>> film = dp.render(scene, spp=4, size=(3, 2))\n"
-    ">>> film.radiance.shape, film.radiance.dtype, float(film.radiance[0, 0, 0])\n"
-    "((2, 3, 3), dtype('float32'), 0.5)\n";
+constexpr const char* film_doc = "What a session has rendered: a value. Arrays have row 0 on top.\n\n"
+                                 ">>> import diptych as dp\n"
+                                 ">>> scene = dp.Scene()\n"
+                                 ">>> scene.environment.scale = (0.5, 0.5, 0.5)\n"
+                                 ">>> film = dp.render(scene, spp=4, size=(3, 2))\n"
+                                 ">>> film.radiance.shape, film.radiance.dtype, float(film.radiance[0, 0, 0])\n"
+                                 "((2, 3, 3), dtype('float32'), 0.5)\n";
 
 /// A copy of the film, which shares its memory, lives on in the array.
 py::array layer(const Film& film, const std::string& name) {
@@ -98,32 +97,46 @@ void bind_film(py::module_& module) {
         .def_property_readonly("nonfinite", info(&FilmInfo::nonfinite), "Samples dropped as not finite or negative.")
         .def_property_readonly("rays", info(&FilmInfo::rays))
         .def_property_readonly("seconds", info(&FilmInfo::seconds), "Of rendering.")
-        .def_property_readonly("radiance", [](const Film& film) { return layer(film, "radiance"); },
-                               "Float32 (h, w, 3), W/(sr m²), linear Rec.709: a read-only view without a copy.")
-        .def_property_readonly("standard_error", [](const Film& film) { return layer(film, "standard_error"); },
-                               "Float32 (h, w, 3): the standard error of radiance, a read-only view. NaN where a pixel has\n"
-                               "fewer than two samples. restir's samples depend on one another, so for restir this is no\n"
-                               "measure of the error.")
+        .def_property_readonly(
+            "radiance", [](const Film& film) { return layer(film, "radiance"); },
+            "Float32 (h, w, 3), W/(sr m²), linear Rec.709: a read-only view without a copy.")
+        .def_property_readonly(
+            "standard_error", [](const Film& film) { return layer(film, "standard_error"); },
+            "Float32 (h, w, 3): the standard error of radiance, a read-only view. NaN where a pixel has\n"
+            "fewer than two samples. restir's samples depend on one another, so for restir this is no\n"
+            "measure of the error.")
         .def("__getitem__", &named_layer, py::arg("layer"),
-             "\"albedo\" or \"normal\", float32 (h, w, 3), or \"depth\", float32 (h, w), metres: means of the first hit.\n"
+             "\"albedo\" or \"normal\", float32 (h, w, 3), or \"depth\", float32 (h, w), metres: means of the first "
+             "hit.\n"
              "Also \"radiance\" and \"standard_error\". Read-only views.")
         .def_property_readonly("layers", &layers, "The names of the layers that the film has.")
         .def_property_readonly(
-            "sums", [](const Film& film) { return array_of(film.sums(), {film.height(), film.width(), 3}); },
+            "sums",
+            [](const Film& film) {
+                return array_of(film.sums(), {film.height(), film.width(), 3});
+            },
             "Float64 (h, w, 3): the sums that radiance is the mean of. A copy.")
         .def_property_readonly(
-            "sample_counts", [](const Film& film) { return array_of(film.sample_counts(), {film.height(), film.width()}); },
+            "sample_counts",
+            [](const Film& film) {
+                return array_of(film.sample_counts(), {film.height(), film.width()});
+            },
             "Uint32 (h, w): the samples in each sum. A copy.")
         .def_property_readonly("relmse_estimate", &Film::relmse_estimate,
                                "Mean of variance / (radiance² + 0.01), by the standard errors; NaN without them.")
-        .def("merge", &Film::merge, py::arg("other"),
-             "Adds the other film's samples, as if this film had taken them too. Raises Error, and changes nothing, where\n"
-             "the films differ in scene, size or settings other than the seed, or have samples in common. Arrays taken\n"
-             "before keep their values.")
-        .def("copy", [](const Film& film) { return Film(film); }, "A film that merges on its own; memory is shared till then.")
+        .def(
+            "merge", &Film::merge, py::arg("other"),
+            "Adds the other film's samples, as if this film had taken them too. Raises Error, and changes nothing, "
+            "where\n"
+            "the films differ in scene, size or settings other than the seed, or have samples in common. Arrays taken\n"
+            "before keep their values.")
+        .def(
+            "copy", [](const Film& film) { return Film(film); },
+            "A film that merges on its own; memory is shared till then.")
         .def("__copy__", [](const Film& film) { return Film(film); })
         .def(
-            "save", [](const Film& film, const py::object& path) {
+            "save",
+            [](const Film& film, const py::object& path) {
                 const std::string name = path_of(path);
                 const py::gil_scoped_release others_run;
                 film.save(name);

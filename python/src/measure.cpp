@@ -100,24 +100,24 @@ py::dict to_dict(const Comparison& comparison) {
 }  // namespace
 
 void bind_measure(py::module_& module) {
-    module.def("verify", [](const Scene& scene, const std::string& a, const std::string& b, std::uint32_t runs,
-                            std::uint32_t spp, const Settings& settings, double alpha, double max_half_width,
-                            double max_tile_half_width, int tile, const std::string& device, int threads,
-                            const py::object& progress) {
-        VerifyOptions options;
-        options.a = side_of(a);
-        options.b = side_of(b);
-        options.runs = runs;
-        options.spp = spp;
-        options.settings = settings;
-        options.alpha = alpha;
-        options.max_half_width = max_half_width;
-        options.max_tile_half_width = max_tile_half_width;
-        options.tile = tile;
-        options.device = device;
-        options.threads = threads;
-        return verified(scene, options, progress);
-    });
+    module.def("verify",
+               [](const Scene& scene, const std::string& a, const std::string& b, std::uint32_t runs, std::uint32_t spp,
+                  const Settings& settings, double alpha, double max_half_width, double max_tile_half_width, int tile,
+                  const std::string& device, int threads, const py::object& progress) {
+                   VerifyOptions options;
+                   options.a = side_of(a);
+                   options.b = side_of(b);
+                   options.runs = runs;
+                   options.spp = spp;
+                   options.settings = settings;
+                   options.alpha = alpha;
+                   options.max_half_width = max_half_width;
+                   options.max_tile_half_width = max_tile_half_width;
+                   options.tile = tile;
+                   options.device = device;
+                   options.threads = threads;
+                   return verified(scene, options, progress);
+               });
     module.def("compare", [](const Film& a, const Film& b) { return to_dict(compare(a, b)); });
     module.def("compare", [](const std::string& a, const std::string& b) { return to_dict(compare(a, b)); });
 }

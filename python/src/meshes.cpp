@@ -12,7 +12,7 @@ std::string shape_of(const py::array& array) {
 /// An array of rows of T. Its kind is NumPy's letter: 'f' takes all real numbers, 'u' integers alone.
 template <typename T>
 py::array_t<T, py::array::c_style | py::array::forcecast> rows(const char* name, const py::object& value, int columns,
-                                                              const std::string& kinds) {
+                                                               const std::string& kinds) {
     const py::array given = py::array::ensure(value);
     const std::string wanted = std::string(name) + ": wants " + (kinds == "iu" ? "integers" : "float32") + " (n, " +
                                std::to_string(columns) + ")";
@@ -33,7 +33,8 @@ py::array_t<T, py::array::c_style | py::array::forcecast> rows(const char* name,
 template <typename Row, typename T, int flags>
 std::span<const Row> span_of(const py::array_t<T, flags>& array) {
     static_assert(sizeof(Row) % sizeof(T) == 0);
-    return {reinterpret_cast<const Row*>(array.data()), static_cast<std::size_t>(array.size()) / (sizeof(Row) / sizeof(T))};
+    return {reinterpret_cast<const Row*>(array.data()),
+            static_cast<std::size_t>(array.size()) / (sizeof(Row) / sizeof(T))};
 }
 
 /// Triangles with an index below 0 or over 32 bits would wrap around to others.
@@ -43,7 +44,8 @@ void refuse_wrapping(const py::object& triangles) {
         const py::object least = given.attr("min")();
         const py::object most = given.attr("max")();
         if (least < py::int_(0) || most > py::int_(0xFFFFFFFFU)) {
-            throw SettingError("triangles: index " + std::string(py::str(least < py::int_(0) ? least : most)) + " is out of range");
+            throw SettingError("triangles: index " + std::string(py::str(least < py::int_(0) ? least : most)) +
+                               " is out of range");
         }
     }
 }
@@ -77,8 +79,12 @@ int add_mesh(Scene& scene, const py::object& positions, const py::object& triang
     const auto corners = rows<std::uint32_t>("triangles", triangles, 3, "iu");
     const auto directions = rows<float>("normals", normals.is_none() ? py::list() : normals, 3, "fiu");
     const auto coordinates = rows<float>("uvs", uvs.is_none() ? py::list() : uvs, 2, "fiu");
-    MeshData mesh{name, span_of<Vec3>(points), span_of<std::array<std::uint32_t, 3>>(corners), span_of<Vec3>(directions),
-                  span_of<Vec2>(coordinates), material_index(scene, material)};
+    MeshData mesh{name,
+                  span_of<Vec3>(points),
+                  span_of<std::array<std::uint32_t, 3>>(corners),
+                  span_of<Vec3>(directions),
+                  span_of<Vec2>(coordinates),
+                  material_index(scene, material)};
     const Matrix object_to_world = transform.is_none() ? identity : to_matrix("transform", transform);
     auto& materials = scene.materials();
     const bool adds_material = mesh.material == static_cast<int>(materials.size());
@@ -101,7 +107,8 @@ int add_mesh(Scene& scene, const py::object& positions, const py::object& triang
 
 int add_texture(Scene& scene, const py::object& pixels, const std::string& name) {
     const py::array given = py::array::ensure(pixels);
-    if (!given || given.ndim() != 3 || (given.shape(2) != 3 && given.shape(2) != 4) || !py::isinstance<py::array_t<std::uint8_t>>(given)) {
+    if (!given || given.ndim() != 3 || (given.shape(2) != 3 && given.shape(2) != 4) ||
+        !py::isinstance<py::array_t<std::uint8_t>>(given)) {
         PyErr_Clear();
         throw SettingError("pixels: wants uint8 (height, width, 3 or 4)");
     }
@@ -119,24 +126,26 @@ int add_texture(Scene& scene, const py::object& pixels, const std::string& name)
 }  // namespace
 
 void bind_meshes(py::class_<Scene>& scene) {
-    scene.def("add_mesh", &add_mesh, py::arg("positions"), py::arg("triangles"), py::arg("normals") = py::none(),
-              py::arg("uvs") = py::none(), py::arg("material") = py::none(), py::arg("transform") = py::none(),
-              py::kw_only(), py::arg("name") = "",
-              "Adds a mesh and one instance of it, and returns the mesh's index.\n\n"
-              "positions: float32 (n, 3), metres. triangles: integers (m, 3), indices into positions; counter-clockwise is\n"
-              "the front. normals: float32 (n, 3), or None for flat shading. uvs: float32 (n, 2), or None. material: its\n"
-              "index, its name, a Material, which joins the scene, or None for a default. transform: (4, 4), [row, column].\n"
-              "Arrays are checked and copied; where one is wrong, SettingError is raised and nothing is added.\n\n"
-              ">>> import diptych as dp\n"
-              ">>> scene = dp.Scene()\n"
-              ">>> square = [(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)]\n"
-              ">>> scene.add_mesh(square, [(0, 1, 2), (0, 2, 3)], material=dp.Material(name=\"floor\"))\n"
-              "0\n"
-              ">>> scene.triangle_count, scene.materials.names()\n"
-              "(2, ['floor'])\n");
-    scene.def("add_texture", &add_texture, py::arg("pixels"), py::arg("name") = "",
-              "Adds uint8 (h, w, 3) or (h, w, 4), row 0 on top, as a texture that repeats and is filtered. Returns the\n"
-              "index that a TextureSlot takes.");
+    scene.def(
+        "add_mesh", &add_mesh, py::arg("positions"), py::arg("triangles"), py::arg("normals") = py::none(),
+        py::arg("uvs") = py::none(), py::arg("material") = py::none(), py::arg("transform") = py::none(), py::kw_only(),
+        py::arg("name") = "",
+        "Adds a mesh and one instance of it, and returns the mesh's index.\n\n"
+        "positions: float32 (n, 3), metres. triangles: integers (m, 3), indices into positions; counter-clockwise is\n"
+        "the front. normals: float32 (n, 3), or None for flat shading. uvs: float32 (n, 2), or None. material: its\n"
+        "index, its name, a Material, which joins the scene, or None for a default. transform: (4, 4), [row, column].\n"
+        "Arrays are checked and copied; where one is wrong, SettingError is raised and nothing is added.\n\n"
+        ">>> import diptych as dp\n"
+        ">>> scene = dp.Scene()\n"
+        ">>> square = [(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)]\n"
+        ">>> scene.add_mesh(square, [(0, 1, 2), (0, 2, 3)], material=dp.Material(name=\"floor\"))\n"
+        "0\n"
+        ">>> scene.triangle_count, scene.materials.names()\n"
+        "(2, ['floor'])\n");
+    scene.def(
+        "add_texture", &add_texture, py::arg("pixels"), py::arg("name") = "",
+        "Adds uint8 (h, w, 3) or (h, w, 4), row 0 on top, as a texture that repeats and is filtered. Returns the\n"
+        "index that a TextureSlot takes.");
 }
 
 }  // namespace diptych::python

@@ -28,8 +28,9 @@ constexpr const char* scene_doc =
     "(1, 0)\n";
 
 void bind_values(py::module_& module) {
-    py::class_<TextureSlot>(module, "TextureSlot",
-                            "Where a material reads a texture; immutable. (u', v') = (u_row . (u, v, 1), v_row . (u, v, 1)).")
+    py::class_<TextureSlot>(
+        module, "TextureSlot",
+        "Where a material reads a texture; immutable. (u', v') = (u_row . (u, v, 1), v_row . (u, v, 1)).")
         .def(py::init([](int texture, int uv_set, const Vec3& u_row, const Vec3& v_row) {
                  return TextureSlot{texture, uv_set, u_row, v_row};
              }),
@@ -39,10 +40,12 @@ void bind_values(py::module_& module) {
         .def_readonly("uv_set", &TextureSlot::uv_set, "0 or 1.")
         .def_property_readonly("u_row", [](const TextureSlot& slot) { return to_python(slot.u_row); })
         .def_property_readonly("v_row", [](const TextureSlot& slot) { return to_python(slot.v_row); })
-        .def("__eq__", [](const TextureSlot& a, const TextureSlot& b) { return a == b; }, py::is_operator())
+        .def(
+            "__eq__", [](const TextureSlot& a, const TextureSlot& b) { return a == b; }, py::is_operator())
         .def("__repr__",
              [](const TextureSlot& slot) {
-                 return "TextureSlot(texture=" + std::to_string(slot.texture) + ", uv_set=" + std::to_string(slot.uv_set) + ")";
+                 return "TextureSlot(texture=" + std::to_string(slot.texture) +
+                        ", uv_set=" + std::to_string(slot.uv_set) + ")";
              })
         .attr("__hash__") = py::none();
     ElementClass<Material>(module, "Material", material_doc)
@@ -93,11 +96,11 @@ void bind_values(py::module_& module) {
     bind_elements<Instance>(module, "Instances", "instance", true);
 }
 
-Scene loaded(const py::object& path, const std::vector<std::string>& ignore_extensions, bool strict, bool allow_external,
-             const std::string& animation, bool complete) {
+Scene loaded(const py::object& path, const std::vector<std::string>& ignore_extensions, bool strict,
+             bool allow_external, const std::string& animation, bool complete) {
     std::vector<std::string> warnings;
-    LoadOptions options{ignore_extensions, strict, allow_external, animation, complete,
-                        [&](const std::string& line) { warnings.push_back(line); }};
+    LoadOptions options{ignore_extensions, strict,   allow_external,
+                        animation,         complete, [&](const std::string& line) { warnings.push_back(line); }};
     const std::string file = path_of(path);
     Scene scene = [&] {
         const py::gil_scoped_release others_run;
@@ -120,7 +123,8 @@ void bind_scene(py::module_& module) {
     py::class_<Scene> scene(module, "Scene", scene_doc);
     scene.def(py::init<>())
         .def_property_readonly("materials", list_getter<Material>())
-        .def_property_readonly("cameras", list_getter<Camera>(), "A scene without one is seen by a camera that frames it.")
+        .def_property_readonly("cameras", list_getter<Camera>(),
+                               "A scene without one is seen by a camera that frames it.")
         .def_property_readonly("lights", list_getter<Light>())
         .def_property_readonly("instances", list_getter<Instance>())
         .def_property_readonly("name", &Scene::name, "The file's path; empty for a scene that was built.")
@@ -144,20 +148,22 @@ void bind_scene(py::module_& module) {
         "degrees above the horizon; irradiance in W/m², of a surface that faces the sun.");
     bind_scene_environment(scene);
     bind_meshes(scene);
-    module.def("load", &loaded, py::arg("path"), py::kw_only(), py::arg("ignore_extensions") = std::vector<std::string>(),
-               py::arg("strict") = false, py::arg("allow_external") = false, py::arg("animation") = "",
-               py::arg("complete") = true,
+    module.def("load", &loaded, py::arg("path"), py::kw_only(),
+               py::arg("ignore_extensions") = std::vector<std::string>(), py::arg("strict") = false,
+               py::arg("allow_external") = false, py::arg("animation") = "", py::arg("complete") = true,
                "Loads a .gltf or .glb file.\n\n"
                "What it cannot show becomes a SceneWarning; strict raises Error instead. ignore_extensions names glTF\n"
                "extensions that the file requires and that are done without. allow_external reads what the file names\n"
-               "outside its folder too. animation is the name or the index of the one that plays; all play where it is empty.\n"
+               "outside its folder too. animation is the name or the index of the one that plays; all play where it is "
+               "empty.\n"
                "complete adds a camera and a neutral sky where the scene has neither.");
     module.def(
         "look_at",
         [](const Point& eye, const Point& target, const Point& up, double vertical_fov) {
             return Element<Camera>(look_at(eye, target, up, vertical_fov));
         },
-        py::arg("eye"), py::arg("target"), py::arg("up") = py::make_tuple(0.0, 1.0, 0.0), py::arg("vertical_fov") = 0.785,
+        py::arg("eye"), py::arg("target"), py::arg("up") = py::make_tuple(0.0, 1.0, 0.0),
+        py::arg("vertical_fov") = 0.785,
         "A perspective camera at the point eye that looks at the point target; metres, radians.\n\n"
         "Its camera_to_world serves as a spot light's light_to_world too.\n\n"
         ">>> import diptych as dp\n"

@@ -1,31 +1,13 @@
 // Settings in Python: immutable, made of keywords that are named as the command line's options.
 #include <algorithm>
 #include <charconv>
-#include <functional>
 #include <limits>
 
-#include "bindings.h"
+#include "setting_kinds.h"
 
 namespace diptych::python {
 
 namespace {
-
-struct Field {
-    const char* name;
-    const char* doc;
-    std::function<py::object(const Settings&)> get;
-    std::function<void(Settings&, const py::object&)> set;
-    py::object range = py::none();  // of a number: (least, most)
-};
-
-template <typename T>
-struct Choice {
-    const char* name;
-    T value;
-};
-
-template <typename T>
-using Choices = std::vector<Choice<T>>;
 
 const Choices<Integrator> integrators = {{"brdf", Integrator::brdf},
                                          {"direct", Integrator::direct},
@@ -45,111 +27,6 @@ const Choices<ResamplingVisibility> resampling_visibility = {{"shading", Resampl
                                                              {"target", ResamplingVisibility::target},
                                                              {"biased-initial", ResamplingVisibility::biased_initial},
                                                              {"biased-final", ResamplingVisibility::biased_final}};
-
-std::string text_of(const py::handle& value) {
-    return py::str(value);
-}
-
-[[noreturn]] void refuse(const char* name, const py::handle& value, const std::string& why) {
-    throw SettingError(std::string(name) + ": " + text_of(value) + " " + why);
-}
-
-/// A member of Settings or of its ResamplingSettings.
-template <typename T>
-T& member(Settings& settings, T Settings::* field) {
-    return settings.*field;
-}
-template <typename T>
-T& member(Settings& settings, T ResamplingSettings::* field) {
-    return settings.resampling.*field;
-}
-template <typename Pointer>
-auto member(const Settings& settings, Pointer field) {
-    return member(const_cast<Settings&>(settings), field);
-}
-
-template <typename T, typename Pointer>
-Field choice(const char* name, Pointer field, const Choices<T>& choices, const char* doc) {
-    const auto get = [field, &choices](const Settings& settings) -> py::object {
-        for (const Choice<T>& each : choices) {
-            if (each.value == member(settings, field)) {
-                return py::str(each.name);
-            }
-        }
-        throw Error("a setting has a value without a name");
-    };
-    const auto set = [name, field, &choices](Settings& settings, const py::object& value) {
-        std::string names;
-        for (const Choice<T>& each : choices) {
-            if (py::isinstance<py::str>(value) && text_of(value) == each.name) {
-                member(settings, field) = each.value;
-                return;
-            }
-            names += (names.empty() ? "" : ", ") + std::string(each.name);
-        }
-        throw SettingError(std::string(name) + " " + text_of(value) + ": there are only " + names);
-    };
-    return {name, doc, get, set};
-}
-
-/// The integers of Python and of NumPy, but no truth value.
-long long integer_of(const char* name, const py::handle& value) {
-    if (PyBool_Check(value.ptr()) != 0 || PyIndex_Check(value.ptr()) == 0) {
-        throw py::type_error(std::string(name) + ": wants an integer");
-    }
-    const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
-    int overflow = 0;
-    const long long result = index ? PyLong_AsLongLongAndOverflow(index.ptr(), &overflow) : -1;
-    if (PyErr_Occurred() != nullptr) {
-        throw py::error_already_set();
-    }
-    return overflow == 0 ? result : overflow * std::numeric_limits<long long>::max();
-}
-
-template <typename Pointer>
-Field integer(const char* name, Pointer field, long long least, long long most, const char* doc) {
-    const auto get = [field](const Settings& settings) -> py::object { return py::int_(member(settings, field)); };
-    const auto set = [=](Settings& settings, const py::object& value) {
-        const long long number = integer_of(name, value);
-        if (number < least || number > most) {
-            refuse(name, value, "is not a number from " + std::to_string(least) + " to " + std::to_string(most));
-        }
-        auto& target = member(settings, field);
-        target = static_cast<std::remove_reference_t<decltype(target)>>(number);
-    };
-    return {name, doc, get, set, py::make_tuple(least, most)};
-}
-
-constexpr float unlimited = std::numeric_limits<float>::max();
-constexpr float positive = std::numeric_limits<float>::min();
-
-template <typename Pointer>
-Field number(const char* name, Pointer field, float least, float most, const char* doc) {
-    const auto get = [field](const Settings& settings) -> py::object { return py::float_(as_written(member(settings, field))); };
-    const auto set = [=](Settings& settings, const py::object& value) {
-        const double number = PyFloat_AsDouble(value.ptr());
-        if (PyErr_Occurred() != nullptr) {
-            throw py::error_already_set();
-        }
-        if (!(number >= least && number <= most)) {
-            refuse(name, value, most < unlimited ? "is not a number from 0 to 1" : "is not a positive number");
-        }
-        member(settings, field) = static_cast<float>(number);
-    };
-    return {name, doc, get, set, py::make_tuple(least, most)};
-}
-
-template <typename Pointer>
-Field flag(const char* name, Pointer field, const char* doc) {
-    const auto get = [field](const Settings& settings) -> py::object { return py::bool_(member(settings, field)); };
-    const auto set = [name, field](Settings& settings, const py::object& value) {
-        if (!py::isinstance<py::bool_>(value)) {
-            throw py::type_error(std::string(name) + ": wants True or False");
-        }
-        member(settings, field) = value.cast<bool>();
-    };
-    return {name, doc, get, set};
-}
 
 Field size() {
     const auto get = [](const Settings& settings) -> py::object {
@@ -186,8 +63,9 @@ const std::vector<Field>& fields() {
         integer("seed", &S::seed, 0, 0xFFFFFFFFLL, "Another seed gives independent noise."),
         integer("camera", &S::camera, 0, std::numeric_limits<int>::max(), "Index into Scene.cameras."),
         choice("sampler", &S::sampler, samplers, "independent, hammersley or sobol."),
-        integer("sample_count", &S::sample_count, 1, 0xFFFFFFFFLL,
-                "Samples a pixel that a Hammersley set is laid out for; diptych.render takes spp where it is not given."),
+        integer(
+            "sample_count", &S::sample_count, 1, 0xFFFFFFFFLL,
+            "Samples a pixel that a Hammersley set is laid out for; diptych.render takes spp where it is not given."),
         choice("mis", &S::mis, heuristics, "MIS weights of path: power or balance."),
         choice("brdf", &S::brdf, brdfs, "Microfacet model: ggx or blinn-phong."),
         choice("normal_maps", &S::normal_maps, normal_maps, "What a normal map does: shading or microfacet."),
@@ -211,7 +89,8 @@ const std::vector<Field>& fields() {
 Settings changed(Settings settings, const py::kwargs& changes) {
     for (const auto& [key, value] : changes) {
         const std::string name = text_of(key);
-        const auto field = std::find_if(fields().begin(), fields().end(), [&](const Field& each) { return name == each.name; });
+        const auto field =
+            std::find_if(fields().begin(), fields().end(), [&](const Field& each) { return name == each.name; });
         if (field == fields().end()) {
             throw py::type_error("there is no setting " + name);
         }
@@ -273,7 +152,8 @@ void bind_settings(py::module_& module) {
     settings.def(py::init([](const py::kwargs& values) { return changed(Settings{}, values); }));
     settings.def("replace", &changed, "The same settings but for the changes.");
     settings.def("__repr__", &shown);
-    settings.def("__eq__", [](const Settings& a, const Settings& b) { return a == b; }, py::is_operator());
+    settings.def(
+        "__eq__", [](const Settings& a, const Settings& b) { return a == b; }, py::is_operator());
     settings.attr("__hash__") = py::none();
     py::dict ranges;
     for (const Field& field : fields()) {

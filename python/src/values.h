@@ -55,7 +55,8 @@ py::object to_python(const T& value) {
         return py::float_(as_written(value));
     } else if constexpr (std::is_enum_v<T>) {
         const auto& names = names_of(value);
-        return py::str(std::find_if(std::begin(names), std::end(names), [&](auto& each) { return each.second == value; })->first);
+        return py::str(
+            std::find_if(std::begin(names), std::end(names), [&](auto& each) { return each.second == value; })->first);
     } else if constexpr (requires { std::tuple_size<T>::value; }) {
         py::tuple parts(value.size());
         for (std::size_t i = 0; i < value.size(); ++i) {

@@ -66,7 +66,8 @@ def test_pages_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names, ran = {}, 0
     for line, code in blocks(page):
-        if ("vulkan" in code.lower() and not dp.devices()) or ("matplotlib" in code and not importlib.util.find_spec("matplotlib")):
+        lacks_device = "vulkan" in code.lower() and not dp.devices()
+        if lacks_device or ("matplotlib" in code and not importlib.util.find_spec("matplotlib")):
             continue
         exec(compile("\n" * line + code, str(ROOT / page), "exec"), names)
         ran += 1

@@ -13,7 +13,9 @@ def film(floor):
 
 
 def test_arrays_are_read_only_views_of_the_films_memory(film):
-    for name, channels in [("radiance", (3,)), ("standard_error", (3,)), ("albedo", (3,)), ("normal", (3,)), ("depth", ())]:
+    shapes = {"radiance": (3,), "standard_error": (3,), "albedo": (3,), "normal": (3,), "depth": ()}
+    assert film.layers == list(shapes)
+    for name, channels in shapes.items():
         array = film[name]
         assert array.shape == (12, 16, *channels) and array.dtype == np.float32
         assert not array.flags.writeable and not array.flags.owndata

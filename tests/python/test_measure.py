@@ -28,7 +28,8 @@ def test_the_device_passes_against_the_oracle(floor, vulkan):
 
 
 @pytest.mark.parametrize("arguments, error, says", [
-    ({"a": "gpu:path"}, ValueError, "gpu"), ({"a": "cpu:photon"}, ValueError, "photon"), ({"runs": 2}, dp.Error, "runs"),
+    ({"a": "gpu:path"}, ValueError, "gpu"), ({"a": "cpu:photon"}, ValueError, "photon"),
+    ({"runs": 2}, dp.Error, "runs"),
     ({"integrator": "path"}, TypeError, "integrator"),
 ])
 def test_what_cannot_be_verified_is_refused(floor, arguments, error, says):

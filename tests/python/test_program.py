@@ -41,7 +41,8 @@ def test_a_render_takes_the_programs_time(program, tmp_path):
         spp *= 2
 
     def of_program():
-        text = program("render", path, "--spp", spp, "--size", "256x256", "--seed", 1, "-o", tmp_path / "film.exr", "--json")
+        text = program("render", path, "--spp", spp, "--size", "256x256", "--seed", 1, "-o", tmp_path / "film.exr",
+                       "--json")
         return json.loads(text)["seconds"]
 
     def of_python():
