@@ -156,13 +156,18 @@ GeneratedScene generate_courtyard(const GenerateOptions&) {
         }
     }
     // Turns by right angles are exact, so that the file does not depend on how a machine rounds sine and cosine.
-    for (Instance& instance : scene.instances)
-        for (int c = 0; c < 3; ++c)
-            for (int r = 0; r < 3; ++r)
+    for (Instance& instance : scene.instances) {
+        for (int c = 0; c < 3; ++c) {
+            for (int r = 0; r < 3; ++r) {
                 instance.object_to_world[c][r] = std::round(instance.object_to_world[c][r]);
-    for (Instance& instance : scene.instances)
-        for (int r = 0; r < 3; ++r)
+            }
+        }
+    }
+    for (Instance& instance : scene.instances) {
+        for (int r = 0; r < 3; ++r) {
             instance.object_to_world[3][r] = std::round(instance.object_to_world[3][r] * 1e6) / 1e6;
+        }
+    }
 
     scene.cameras.push_back(make_camera("camera", {-8.6, 1.75, 3.6}, {0, 2.0, -0.5}, 60));
     scene.cameras.push_back(make_camera("court", {4.6, 1.7, 5.0}, {-2.0, 2.0, -3.0}, 60));

@@ -36,9 +36,11 @@ Primitive box(const glm::vec3& low, const glm::vec3& high, int material, bool in
     Primitive out;
     out.material = material;
     add_box(out, low, high);
-    if (inside)
-        for (glm::uvec3& triangle : out.triangles)
+    if (inside) {
+        for (glm::uvec3& triangle : out.triangles) {
             std::swap(triangle.y, triangle.z);
+        }
+    }
     return out;
 }
 
@@ -216,16 +218,18 @@ GeneratedScene generate_extreme_normal_map(const GenerateOptions&) {
     TextureImage image;
     image.name = "tilted";
     image.width = image.height = 8;
-    for (int y = 0; y < 8; ++y)
+    for (int y = 0; y < 8; ++y) {
         for (int x = 0; x < 8; ++x) {
             const double across = 0.9962, up = 0.0872;
             const bool right = x >= 4, low = y >= 4;
             const double nx = right == low ? (right ? across : -across) : 0,
                          ny = right == low ? 0 : (right ? across : -across);
-            for (const double c : {nx, ny, up})
+            for (const double c : {nx, ny, up}) {
                 image.rgba.push_back(std::uint8_t(std::lround(255 * (0.5 + 0.5 * c))));
+            }
             image.rgba.push_back(255);
         }
+    }
     scene.images.push_back(image);
     Texture texture;
     texture.name = "tilted";

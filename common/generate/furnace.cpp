@@ -19,8 +19,9 @@ GeneratedScene generate_furnace(const GenerateOptions&) {
     Primitive room;
     room.material = material;
     add_box(room, {-1, -1, -1}, {1, 1, 1});
-    for (glm::uvec3& triangle : room.triangles)
+    for (glm::uvec3& triangle : room.triangles) {
         std::swap(triangle.y, triangle.z);
+    }
     add_object(scene, "room", {room});
 
     Primitive ball = make_sphere(0.35F, 24, 12, material);

@@ -45,13 +45,15 @@ std::span<const SceneGenerator> extreme_scene_generators() {
 GeneratedScene generate_scene(const std::string& name, const GenerateOptions& options) {
     std::string names;
     for (const SceneGenerator& generator : generators) {
-        if (name == generator.name)
+        if (name == generator.name) {
             return generator.generate(options);
+        }
         names += (names.empty() ? "" : ", ") + std::string(generator.name);
     }
     for (const SceneGenerator& generator : extreme_generators) {
-        if (name == generator.name)
+        if (name == generator.name) {
             return generator.generate(options);
+        }
         names += ", " + std::string(generator.name);
     }
     throw Error("no generated scene is called '" + name + "'; there are " + names);

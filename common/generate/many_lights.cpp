@@ -37,8 +37,9 @@ struct Street {
 
 glm::dmat4 box_placement(const glm::dvec3& low, const glm::dvec3& high) {
     glm::dmat4 out(1);
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; ++i) {
         out[i][i] = high[i] - low[i];
+    }
     out[3] = glm::dvec4(low, 1);
     return out;
 }
@@ -81,10 +82,11 @@ Street build_street(Scene& scene, GeneratorRandom& random) {
             const double left = std::min(inner, outer), right = std::max(inner, outer);
             add_instance(scene, "", houses[random.below(houses.size())],
                          box_placement({left, -0.2, z - width}, {right, height, z}));
-            for (double y = 3.6; y + 3 < height; y += 6.4)
+            for (double y = 3.6; y + 3 < height; y += 6.4) {
                 add_instance(scene, "", ledge,
                              box_placement({std::min(inner - side * 0.5, inner + side * 0.2), y, z - width + 0.2},
                                            {std::max(inner - side * 0.5, inner + side * 0.2), y + 0.15, z - 0.2}));
+            }
             const glm::dvec3 along(0, 0, side);  // the front's u axis, such that u x y faces the street
             street.panels.push_back(
                 {{inner, 0.6, side > 0 ? z - width : z}, along, {0, 1, 0}, width, height - 1, street.buildings});
@@ -119,19 +121,22 @@ std::array<glm::vec3, palette_size> palette() {
 /// Which palette entry each rectangle has: one stratum each of the log-uniform distribution, shuffled.
 std::vector<std::uint8_t> shuffled_levels(std::uint64_t count, GeneratorRandom& random) {
     std::vector<std::uint8_t> out(count);
-    for (std::uint64_t i = 0; i < count; ++i)
+    for (std::uint64_t i = 0; i < count; ++i) {
         out[i] = std::uint8_t(double(palette_size) * (double(i) + random.uniform()) / double(count));
-    for (std::uint64_t i = count; i > 1; --i)
+    }
+    for (std::uint64_t i = count; i > 1; --i) {
         std::swap(out[i - 1], out[random.below(i)]);
+    }
     return out;
 }
 
 }  // namespace
 
 GeneratedScene generate_many_lights(const GenerateOptions& options) {
-    if (options.count < 1 || options.count > most_emitters)
+    if (options.count < 1 || options.count > most_emitters) {
         throw Error("many-lights: `count` " + std::to_string(options.count) + " is not within 1 and " +
                     std::to_string(most_emitters));
+    }
     GeneratedScene out;
     Scene& scene = out.scene;
     scene.name = "many-lights";
@@ -146,8 +151,9 @@ GeneratedScene generate_many_lights(const GenerateOptions& options) {
         return std::accumulate(street.panels.begin(), street.panels.end(), std::uint64_t(0),
                                [&](std::uint64_t sum, const Panel& panel) { return sum + panel.slots(slot); });
     };
-    while (slots() < rectangles + rectangles * 3 / 5)
+    while (slots() < rectangles + rectangles * 3 / 5) {
         slot *= 0.97;
+    }
     const double width = 0.55 * slot, height = 0.7 * slot;
 
     // The whole street receives about the same power whatever the count; log-uniform levels have a mean of about max /
@@ -158,9 +164,10 @@ GeneratedScene generate_many_lights(const GenerateOptions& options) {
         street_power / (3.14159265358979 * width * height * double(options.count) / 2 * mean_level);
     std::array<int, palette_size> materials{};
     const auto radiances = palette();
-    for (std::size_t i = 0; i < palette_size; ++i)
+    for (std::size_t i = 0; i < palette_size; ++i) {
         materials[i] =
             add_material(scene, make_emitter("light " + std::to_string(i + 1), float(strongest) * radiances[i]));
+    }
 
     const std::vector<std::uint8_t> levels = shuffled_levels(rectangles, random);
     std::vector<std::array<Primitive, palette_size>> emitters(street.buildings);
@@ -168,8 +175,9 @@ GeneratedScene generate_many_lights(const GenerateOptions& options) {
     for (const Panel& panel : street.panels) {
         const std::uint64_t columns = panel.columns(slot), count = panel.slots(slot);
         for (std::uint64_t i = 0; i < count; ++i, --slots_left) {
-            if (double(wanted) <= random.uniform() * double(slots_left))
+            if (double(wanted) <= random.uniform() * double(slots_left)) {
                 continue;  // selection sampling: exactly `wanted`
+            }
             --wanted;
             Primitive& primitive = emitters[panel.building][levels[wanted]];
             constexpr double before_wall = 0.02;
@@ -187,13 +195,15 @@ GeneratedScene generate_many_lights(const GenerateOptions& options) {
     for (std::size_t building = 0; building < emitters.size(); ++building) {
         std::vector<Primitive> primitives;
         for (std::size_t i = 0; i < palette_size; ++i) {
-            if (emitters[building][i].triangles.empty())
+            if (emitters[building][i].triangles.empty()) {
                 continue;
+            }
             emitters[building][i].material = materials[i];
             primitives.push_back(std::move(emitters[building][i]));
         }
-        if (!primitives.empty())
+        if (!primitives.empty()) {
             add_object(scene, "lights " + std::to_string(building + 1), std::move(primitives));
+        }
     }
     scene.cameras.push_back(make_camera("camera", {2.2, 1.8, 4}, {-1.2, 4.2, -40}, 55));
     scene.cameras.push_back(make_camera("roofs", {0, 34, 26}, {0, 2, -50}, 50));

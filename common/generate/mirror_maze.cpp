@@ -20,13 +20,16 @@ struct Maze {
 
 Maze carve_maze(GeneratorRandom& random) {
     Maze maze;
-    for (auto& row : maze.across)
+    for (auto& row : maze.across) {
         row.fill(true);
-    for (auto& row : maze.along)
+    }
+    for (auto& row : maze.along) {
         row.fill(true);
+    }
     const auto wall_between = [&](glm::ivec2 a, glm::ivec2 b) -> bool& {
-        if (a.x == b.x)
+        if (a.x == b.x) {
             return maze.across[std::size_t(a.x)][std::size_t(std::max(a.y, b.y))];
+        }
         return maze.along[std::size_t(std::max(a.x, b.x))][std::size_t(a.y)];
     };
     constexpr std::array<glm::ivec2, 4> steps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
@@ -38,8 +41,9 @@ Maze carve_maze(GeneratorRandom& random) {
         std::vector<glm::ivec2> open;
         for (const glm::ivec2& step : steps) {
             const glm::ivec2 to = path.back() + step;
-            if (inside(to) && !seen[std::size_t(to.x)][std::size_t(to.y)])
+            if (inside(to) && !seen[std::size_t(to.x)][std::size_t(to.y)]) {
                 open.push_back(to);
+            }
         }
         if (open.empty()) {
             path.pop_back();
@@ -51,8 +55,9 @@ Maze carve_maze(GeneratorRandom& random) {
         path.push_back(to);
     }
     // The middle aisle is what the camera looks down, and loops let light through.
-    for (int z = 2; z < cells; ++z)
+    for (int z = 2; z < cells; ++z) {
         maze.across[cells / 2][std::size_t(z)] = false;
+    }
     for (int i = 0; i < 10; ++i) {
         const auto x = 1 + random.below(cells - 1), z = random.below(cells);
         maze.along[x][z] = false;
@@ -110,10 +115,12 @@ GeneratedScene generate_mirror_maze(const GenerateOptions& options) {
         for (int z = 0; z <= cells; ++z) {
             const auto i = std::size_t(x), j = std::size_t(z);
             add_instance(scene, "", post_mesh, place(x, z));
-            if (x < cells && maze.across[i][j])
+            if (x < cells && maze.across[i][j]) {
                 add_instance(scene, "", across[random.below(4)], place(x + 0.5, z));
-            if (z < cells && maze.along[i][j])
+            }
+            if (z < cells && maze.along[i][j]) {
                 add_instance(scene, "", along[random.below(4)], place(x, z + 0.5));
+            }
         }
     }
 
@@ -126,10 +133,13 @@ GeneratedScene generate_mirror_maze(const GenerateOptions& options) {
         constexpr float r = 0.12F;
         add_quad(lamp, {-r, 0, -r}, {r, 0, -r}, {r, 0, r}, {-r, 0, r});
         const int mesh = add_mesh(scene, glow_names[i], {lamp});
-        for (int x = 0; x < cells; ++x)
-            for (int z = 0; z < cells; ++z)
-                if (std::size_t(x + 2 * z) % 4 == i && (x + z) % 2 == 0)
+        for (int x = 0; x < cells; ++x) {
+            for (int z = 0; z < cells; ++z) {
+                if (std::size_t(x + 2 * z) % 4 == i && (x + z) % 2 == 0) {
                     add_instance(scene, "", mesh, place(x + 0.5, z + 0.5) * translation(0, double(height) - 0.01, 0));
+                }
+            }
+        }
     }
     const double end = double(cell) * (cells / 2.0 - 0.3);
     scene.cameras.push_back(make_camera("camera", {0.25, 1.5, end}, {-0.25, 1.3, 0}, 60));

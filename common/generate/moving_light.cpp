@@ -74,8 +74,9 @@ Animation circle(int lamp) {
         const float c = key % 4 == 0 ? 1.0F : key % 4 == 2 ? -1.0F : 0.0F;
         const float s = key % 4 == 1 ? 1.0F : key % 4 == 3 ? -1.0F : 0.0F;
         const float velocity[] = {-s * speed, 0, c * speed}, place[] = {c * r, 2.2F, s * r - 0.3F};
-        for (const float* group : {velocity, place, velocity})
+        for (const float* group : {velocity, place, velocity}) {
             path.values.insert(path.values.end(), group, group + 3);
+        }
     }
     return {"moving lamp", {path}};
 }

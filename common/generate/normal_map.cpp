@@ -50,8 +50,9 @@ TextureImage normal_image() {
             const double slope_right = depth * (brick_at(u + 1, v).height - brick_at(u - 1, v).height) / 2;
             const double slope_up = depth * (brick_at(u, v - 1).height - brick_at(u, v + 1).height) / 2;
             const glm::dvec3 n = glm::normalize(glm::dvec3(-slope_right, -slope_up, 1));
-            for (int c = 0; c < 3; ++c)
+            for (int c = 0; c < 3; ++c) {
                 out.rgba[std::size_t(4 * (y * map_size + x) + c)] = to_byte(0.5 + 0.5 * n[c]);
+            }
         }
     }
     return out;
@@ -65,8 +66,9 @@ TextureImage color_image() {
             const Brick brick = brick_at(x + 0.5, y + 0.5);
             const double shade = 0.8 + 0.05 * ((brick.row * 5 + brick.column * 3) % 7);
             const glm::dvec3 color = glm::mix(joint, shade * glm::dvec3(0.62, 0.34, 0.27), brick.height);
-            for (int c = 0; c < 3; ++c)
+            for (int c = 0; c < 3; ++c) {
                 out.rgba[std::size_t(4 * (y * map_size + x) + c)] = to_byte(color[c]);
+            }
         }
     }
     return out;

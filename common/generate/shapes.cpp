@@ -33,9 +33,11 @@ Primitive make_sphere(float radius, int segments, int rings, int material) {
         out.positions.push_back(radius * n);
     };
     add_vertex(0, 0);
-    for (int ring = 1; ring < rings; ++ring)
-        for (int i = 0; i < segments; ++i)
+    for (int ring = 1; ring < rings; ++ring) {
+        for (int i = 0; i < segments; ++i) {
             add_vertex(glm::pi<double>() * ring / rings, glm::two_pi<double>() * i / segments);
+        }
+    }
     out.normals.push_back({0, -1, 0});
     out.positions.push_back({0, -radius, 0});
 
@@ -70,10 +72,12 @@ Primitive make_lathe(std::span<const glm::vec2> profile, int segments, int mater
         for (int i = 0; i < segments; ++i) {
             const std::uint32_t here = first + 2 * std::uint32_t(i),
                                 next = first + 2 * std::uint32_t((i + 1) % segments);
-            if (low.x > 0)
+            if (low.x > 0) {
                 out.triangles.push_back({here, next, next + 1});
-            if (high.x > 0)
+            }
+            if (high.x > 0) {
                 out.triangles.push_back({here, next + 1, here + 1});
+            }
         }
     }
     return out;

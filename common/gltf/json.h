@@ -19,10 +19,11 @@ template <typename Vector>
 Json json_vector(const Vector& v) {
     Json out = Json::array();
     for (int i = 0; i < v.length(); ++i) {
-        if constexpr (std::is_same_v<typename Vector::value_type, float>)
+        if constexpr (std::is_same_v<typename Vector::value_type, float>) {
             out.push_back(decimal(v[i]));
-        else
+        } else {
             out.push_back(v[i] + 0.0);
+        }
     }
     return out;
 }

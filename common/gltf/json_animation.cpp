@@ -45,26 +45,31 @@ const char* name_of(Interpolation interpolation) {
 
 Json json_node(const Node& node) {
     Json out = Json::object();
-    if (!node.name.empty())
+    if (!node.name.empty()) {
         out["name"] = node.name;
+    }
     if (node.matrix) {
         place(out, *node.matrix);
         return out;
     }
-    if (node.translation != glm::dvec3(0))
+    if (node.translation != glm::dvec3(0)) {
         out["translation"] = json_vector(node.translation);
-    if (node.rotation != glm::dvec4(0, 0, 0, 1))
+    }
+    if (node.rotation != glm::dvec4(0, 0, 0, 1)) {
         out["rotation"] = json_vector(node.rotation);
-    if (node.scale != glm::dvec3(1))
+    }
+    if (node.scale != glm::dvec3(1)) {
         out["scale"] = json_vector(node.scale);
+    }
     return out;
 }
 
 Json json_animation(const Animation& animation, int first_node, const AddAccessor& add_accessor,
                     std::set<std::string>& extensions) {
     Json out;
-    if (!animation.name.empty())
+    if (!animation.name.empty()) {
         out["name"] = animation.name;
+    }
     Json samplers = Json::array(), channels = Json::array();
     for (const Channel& channel : animation.channels) {
         channels.push_back({{"sampler", samplers.size()}, {"target", json_target(channel, first_node, extensions)}});

@@ -52,8 +52,9 @@ int add_view(Document& document, const void* data, std::size_t size, ViewTarget 
     auto& bytes = document.bytes;
     bytes.resize((bytes.size() + 3) / 4 * 4);
     Json view = {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", size}};
-    if (target != no_target)
+    if (target != no_target) {
         view["target"] = int(target);
+    }
     const auto* first = static_cast<const char*>(data);
     bytes.insert(bytes.end(), first, first + size);
     return document.views.add(view);
@@ -68,8 +69,9 @@ int add_array(Document& document, const void* data, std::size_t size, ViewTarget
     for (auto it = first; it != last; ++it) {
         const StoredArray& stored = it->second;
         if (stored.kind == kind && stored.size == size &&
-            std::memcmp(document.bytes.data() + stored.offset, data, size) == 0)
+            std::memcmp(document.bytes.data() + stored.offset, data, size) == 0) {
             return stored.accessor;
+        }
     }
     Json out = {{"bufferView", add_view(document, data, size, target)}};
     out.update(accessor);
@@ -112,46 +114,58 @@ int add_indices(Document& document, const std::vector<glm::uvec3>& triangles, st
     const bool is_short = vertices <= 65535;  // 65535 itself would restart a strip
     const Json accessor = {
         {"componentType", int(is_short ? type_uint16 : type_uint32)}, {"count", count}, {"type", "SCALAR"}};
-    if (!is_short)
+    if (!is_short) {
         return add_array(document, triangles.data(), 4 * count, index_target, accessor);
+    }
     std::vector<std::uint16_t> indices;
     indices.reserve(count);
-    for (const glm::uvec3& t : triangles)
-        for (int i = 0; i < 3; ++i)
+    for (const glm::uvec3& t : triangles) {
+        for (int i = 0; i < 3; ++i) {
             indices.push_back(std::uint16_t(t[i]));
+        }
+    }
     return add_array(document, indices.data(), 2 * count, index_target, accessor);
 }
 
 Json add_primitive(Document& document, const Primitive& primitive) {
     Json attributes = {{"POSITION", add_attribute(document, primitive.positions, true)}};
-    if (!primitive.normals.empty())
+    if (!primitive.normals.empty()) {
         attributes["NORMAL"] = add_attribute(document, primitive.normals, false);
-    if (!primitive.tangents.empty())
+    }
+    if (!primitive.tangents.empty()) {
         attributes["TANGENT"] = add_attribute(document, primitive.tangents, false);
-    for (std::size_t set = 0; set < primitive.uvs.size(); ++set)
-        if (!primitive.uvs[set].empty())
+    }
+    for (std::size_t set = 0; set < primitive.uvs.size(); ++set) {
+        if (!primitive.uvs[set].empty()) {
             attributes["TEXCOORD_" + std::to_string(set)] = add_attribute(document, primitive.uvs[set], false);
-    if (!primitive.colors.empty())
+        }
+    }
+    if (!primitive.colors.empty()) {
         attributes["COLOR_0"] = add_attribute(document, primitive.colors, false);
+    }
     Json out = {{"attributes", attributes},
                 {"indices", add_indices(document, primitive.triangles, primitive.positions.size())}};
-    if (primitive.material != none)
+    if (primitive.material != none) {
         out["material"] = primitive.material;
+    }
     return out;
 }
 
 void add_mesh(Document& document, const Mesh& mesh, const std::string& file) {
     Json out;
-    if (!mesh.name.empty())
+    if (!mesh.name.empty()) {
         out["name"] = mesh.name;
+    }
     Json primitives = Json::array();
     for (const Primitive& primitive : mesh.primitives) {
-        if (primitive.triangles.empty() || primitive.positions.empty())
+        if (primitive.triangles.empty() || primitive.positions.empty()) {
             throw Error(file + ": mesh '" + mesh.name + "': a primitive has no triangles");
+        }
         primitives.push_back(add_primitive(document, primitive));
     }
-    if (primitives.empty())
+    if (primitives.empty()) {
         throw Error(file + ": mesh '" + mesh.name + "': it has no primitives");
+    }
     out["primitives"] = primitives;
     document.meshes.add(out);
 }
@@ -164,18 +178,21 @@ void add_texture(Document& document, const Texture& texture) {
                                                {"wrapS", wrap(texture.wrap_u)},
                                                {"wrapT", wrap(texture.wrap_v)}});
     Json out;
-    if (!texture.name.empty())
+    if (!texture.name.empty()) {
         out["name"] = texture.name;
+    }
     out["sampler"] = sampler;
-    if (texture.image != none)
+    if (texture.image != none) {
         out["source"] = texture.image;
+    }
     document.textures.add(out);
 }
 
 Json named_node(const std::string& name, const glm::dmat4& to_world) {
     Json node;
-    if (!name.empty())
+    if (!name.empty()) {
         node["name"] = name;
+    }
     gltf::place(node, to_world);
     return node;
 }
@@ -193,16 +210,18 @@ struct MovingNodes {
     /// Where to put `member` of a thing that hangs in `node`.
     Json& slot(int node, const char* member) {
         Json& json = nodes.at(std::size_t(node));
-        if (json.contains(member))
+        if (json.contains(member)) {
             throw Error(file + ": node '" + json.value("name", "") + "': a node holds one " + member + " at most");
+        }
         return json[member];
     }
 };
 
 void add_nodes(Document& document, const Scene& scene, const std::string& file) {
     MovingNodes moving{{}, file};
-    for (const Node& node : scene.nodes)
+    for (const Node& node : scene.nodes) {
         moving.nodes.push_back(gltf::json_node(node));
+    }
     for (const Camera& camera : scene.cameras) {
         const int index = document.cameras.add(gltf::json_camera(camera));
         if (camera.node != none) {
@@ -230,25 +249,30 @@ void add_nodes(Document& document, const Scene& scene, const std::string& file) 
             continue;
         }
         Json node = named_node(instance.name, instance.object_to_world);
-        if (instance.mesh != none)
+        if (instance.mesh != none) {
             node["mesh"] = instance.mesh;
+        }
         add_root(document, node);
     }
     const int first = document.nodes.size;
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].parent != none)
-            moving.nodes.at(std::size_t(scene.nodes[i].parent))["children"].push_back(first + int(i));
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].parent == none)
+        if (scene.nodes[i].parent != none) {
+            moving.nodes.at(std::size_t(scene.nodes[i].parent))["children"].push_back(first + int(i));
+        }
+    }
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].parent == none) {
             add_root(document, moving.nodes[i]);
-        else
+        } else {
             document.nodes.add(moving.nodes[i]);
+        }
     }
     const gltf::AddAccessor add_accessor = [&](const std::vector<float>& numbers, int components, bool with_bounds) {
         return add_numbers(document, numbers, components, with_bounds);
     };
-    for (const Animation& animation : scene.animations)
+    for (const Animation& animation : scene.animations) {
         document.animations.add(gltf::json_animation(animation, first, add_accessor, document.extensions));
+    }
 }
 
 std::string_view view_of(const std::vector<std::uint8_t>& bytes) {
@@ -270,37 +294,46 @@ void add_image(Document& document, const TextureImage& image, const std::filesys
 
 std::string document_text(const Document& document, const Scene& scene, const std::string& bin_uri) {
     std::string out = "{\n\"asset\": " + Json{{"version", "2.0"}, {"generator", "Diptych"}}.dump();
-    if (!document.extensions.empty())
+    if (!document.extensions.empty()) {
         out += ",\n\"extensionsUsed\": " + Json(document.extensions).dump();
-    if (document.lights.size != 0)
+    }
+    if (document.lights.size != 0) {
         out += ",\n\"extensions\": {\"KHR_lights_punctual\": {\"lights\": [" + document.lights.text + "\n]}}";
+    }
     Json root;
-    if (!scene.name.empty())
+    if (!scene.name.empty()) {
         root["name"] = scene.name;
-    if (scene.environment.kind == Environment::Kind::constant)
+    }
+    if (scene.environment.kind == Environment::Kind::constant) {
         root["extras"]["diptych"]["environment"] = gltf::json_vector(scene.environment.scale);
+    }
     std::string root_text = root.is_null() ? "{" : root.dump();
-    if (!root.is_null())
+    if (!root.is_null()) {
         root_text.back() = ',';
-    if (document.nodes.size == 0 && !root.is_null())
+    }
+    if (document.nodes.size == 0 && !root.is_null()) {
         root_text.back() = '}';
-    else if (document.nodes.size == 0)
+    } else if (document.nodes.size == 0) {
         root_text += "}";
-    else
+    } else {
         root_text += "\"nodes\":[" + document.root_nodes + "]}";
+    }
     out += ",\n\"scene\": 0,\n\"scenes\": [" + root_text + "]";
     const std::pair<const char*, const JsonList*> lists[] = {
         {"animations", &document.animations}, {"nodes", &document.nodes},         {"cameras", &document.cameras},
         {"meshes", &document.meshes},         {"materials", &document.materials}, {"textures", &document.textures},
         {"samplers", &document.samplers},     {"images", &document.images},       {"accessors", &document.accessors},
         {"bufferViews", &document.views}};
-    for (const auto& [name, list] : lists)
-        if (list->size != 0)
+    for (const auto& [name, list] : lists) {
+        if (list->size != 0) {
             out += ",\n\"" + std::string(name) + "\": [" + list->text + "\n]";
+        }
+    }
     if (!document.bytes.empty()) {
         Json buffer;
-        if (!bin_uri.empty())
+        if (!bin_uri.empty()) {
             buffer["uri"] = bin_uri;
+        }
         buffer["byteLength"] = document.bytes.size();
         out += ",\n\"buffers\": [" + buffer.dump() + "]";
     }
@@ -313,13 +346,16 @@ void write_glb(const std::filesystem::path& path, Document& document, std::strin
     document.bytes.resize((document.bytes.size() + 3) / 4 * 4);
     const std::uint64_t bin_part = document.bytes.empty() ? 0 : 8 + document.bytes.size();
     const std::uint64_t total = 12 + 8 + json.size() + bin_part;
-    if (total > std::numeric_limits<std::uint32_t>::max())
+    if (total > std::numeric_limits<std::uint32_t>::max()) {
         throw Error(path.string() + ": more than 4 GiB do not fit a .glb; write a .gltf");
+    }
     const auto words = [](std::initializer_list<std::uint64_t> values) {
         std::string out;
-        for (const std::uint64_t value : values)
-            for (unsigned shift = 0; shift < 32; shift += 8)
+        for (const std::uint64_t value : values) {
+            for (unsigned shift = 0; shift < 32; shift += 8) {
                 out += char(value >> shift & 0xffU);
+            }
+        }
         return out;
     };
     const std::string header = words({0x46546c67, 2, total, json.size(), 0x4e4f534a});
@@ -332,18 +368,23 @@ void write_glb(const std::filesystem::path& path, Document& document, std::strin
 void write_gltf(const Scene& scene, const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
     const bool binary = extension == ".glb";
-    if (!binary && extension != ".gltf")
+    if (!binary && extension != ".gltf") {
         throw Error(path.string() + ": a glTF file ends in .gltf or .glb");
+    }
 
     Document document;
-    for (const TextureImage& image : scene.images)
+    for (const TextureImage& image : scene.images) {
         add_image(document, image, path, binary);
-    for (const Texture& texture : scene.textures)
+    }
+    for (const Texture& texture : scene.textures) {
         add_texture(document, texture);
-    for (const Material& material : scene.materials)
+    }
+    for (const Material& material : scene.materials) {
         document.materials.add(gltf::json_material(material, document.extensions));
-    for (const Mesh& mesh : scene.meshes)
+    }
+    for (const Mesh& mesh : scene.meshes) {
         add_mesh(document, mesh, path.string());
+    }
     add_nodes(document, scene, path.string());
 
     if (binary) {
@@ -351,8 +392,9 @@ void write_gltf(const Scene& scene, const std::filesystem::path& path) {
         return;
     }
     const std::string bin = path.stem().string() + ".bin";
-    if (!document.bytes.empty())
+    if (!document.bytes.empty()) {
         gltf::write_whole(path.parent_path() / bin, {std::string_view(document.bytes.data(), document.bytes.size())});
+    }
     const std::string json = document_text(document, scene, gltf::encoded_uri(bin));
     gltf::write_whole(path, {json});
 }

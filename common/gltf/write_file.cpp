@@ -9,9 +9,11 @@
 namespace diptych::core::gltf {
 
 std::string file_part(std::string name) {
-    for (char& c : name)
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_')
+    for (char& c : name) {
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') {
             c = '-';
+        }
+    }
     return name;
 }
 
@@ -33,12 +35,14 @@ void write_whole(const std::filesystem::path& path, std::initializer_list<std::s
     std::filesystem::path temporary = path;
     temporary += ".tmp";
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    for (const std::string_view piece : pieces)
+    for (const std::string_view piece : pieces) {
         file.write(piece.data(), std::streamsize(piece.size()));
+    }
     file.close();
     std::error_code error;
-    if (file)
+    if (file) {
         std::filesystem::rename(temporary, path, error);
+    }
     if (!file || error) {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);

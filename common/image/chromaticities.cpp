@@ -66,11 +66,13 @@ glm::dmat3 to_rec709(const Chromaticities& space) {
 void convert_color(Image& image, const glm::dmat3& matrix) {
     for (size_t i = 0; i + 2 < image.data.size(); i += 3) {
         float* pixel = image.data.data() + i;
-        if (!std::isfinite(pixel[0]) || !std::isfinite(pixel[1]) || !std::isfinite(pixel[2]))
+        if (!std::isfinite(pixel[0]) || !std::isfinite(pixel[1]) || !std::isfinite(pixel[2])) {
             continue;
+        }
         const glm::dvec3 converted = matrix * glm::dvec3(pixel[0], pixel[1], pixel[2]);
-        for (int c = 0; c < 3; ++c)
+        for (int c = 0; c < 3; ++c) {
             pixel[c] = static_cast<float>(converted[c]);
+        }
     }
 }
 

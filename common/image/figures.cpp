@@ -23,16 +23,18 @@ PixelColor magma_at(float t) {
     const size_t low = std::min(static_cast<size_t>(position), magma.size() - 2);
     const float weight = position - static_cast<float>(low);
     PixelColor color;
-    for (size_t channel = 0; channel < 3; ++channel)
+    for (size_t channel = 0; channel < 3; ++channel) {
         color[channel] = magma[low][channel] * (1.0f - weight) + magma[low + 1][channel] * weight;
+    }
     return color;
 }
 
 }  // namespace
 
 Image relative_difference(const Image& a, const Image& b) {
-    if (!a.same_shape(b))
+    if (!a.same_shape(b)) {
         throw Error("the pictures cannot be compared: they differ in size or channels");
+    }
     Image result = make_image(a.width, a.height, 1);
     const size_t channels = static_cast<size_t>(a.channels);
     for (size_t pixel = 0; pixel < result.pixel_count(); ++pixel) {
@@ -48,10 +50,12 @@ Image relative_difference(const Image& a, const Image& b) {
 }
 
 Image heatmap(const Image& scalar, float lo, float hi) {
-    if (scalar.channels != 1)
+    if (scalar.channels != 1) {
         throw Error("a heatmap needs 1 channel, the image has " + std::to_string(scalar.channels));
-    if (!(lo < hi))
+    }
+    if (!(lo < hi)) {
         throw Error("a heatmap needs a range with low < high");
+    }
     Image result = make_image(scalar.width, scalar.height, 3);
     for (size_t pixel = 0; pixel < scalar.data.size(); ++pixel) {
         const float value = scalar.data[pixel];
@@ -63,12 +67,14 @@ Image heatmap(const Image& scalar, float lo, float hi) {
 }
 
 Image side_by_side(const std::vector<Image>& panels, int gap) {
-    if (panels.empty())
+    if (panels.empty()) {
         throw Error("side by side: there is no panel");
+    }
     int width = gap * static_cast<int>(panels.size() - 1);
     for (const Image& panel : panels) {
-        if (panel.height != panels[0].height || panel.channels != panels[0].channels)
+        if (panel.height != panels[0].height || panel.channels != panels[0].channels) {
             throw Error("side by side: the panels differ in height or channels");
+        }
         width += panel.width;
     }
     Image result = make_image(width, panels[0].height, panels[0].channels, 1.0f);

@@ -23,8 +23,9 @@ std::string lower_extension(const fs::path& path) {
 
 void require_shape(const fs::path& path, const Image& image, bool shape_is_known) {
     const bool positive = image.width > 0 && image.height > 0 && image.channels > 0;
-    if (positive && shape_is_known && image.data.size() == image.pixel_count() * static_cast<size_t>(image.channels))
+    if (positive && shape_is_known && image.data.size() == image.pixel_count() * static_cast<size_t>(image.channels)) {
         return;
+    }
     throw Error(path.string() + ": cannot write: the image of " + std::to_string(image.width) + "x" +
                 std::to_string(image.height) + " pixels with " + std::to_string(image.channels) + " channels and " +
                 std::to_string(image.data.size()) + " values has the wrong shape for this file");
@@ -51,12 +52,15 @@ void encode_and_write(const fs::path& path, const Encode& encode) {
 
 ImageFormat image_format(const fs::path& path) {
     const std::string extension = lower_extension(path);
-    if (extension == ".exr")
+    if (extension == ".exr") {
         return ImageFormat::Exr;
-    if (extension == ".png")
+    }
+    if (extension == ".png") {
         return ImageFormat::Png;
-    if (extension == ".hdr")
+    }
+    if (extension == ".hdr") {
         return ImageFormat::Hdr;
+    }
     throw Error(path.string() + ": cannot write: unknown extension '" + extension + "' (known: .exr, .png, .hdr)");
 }
 
@@ -92,8 +96,9 @@ void write_hdr(const fs::path& path, const Image& linear_rgb) {
     require_shape(path, linear_rgb, linear_rgb.channels == 3);
     const float largest = std::ldexp(255.0f / 256.0f, 127);
     Image values = linear_rgb;
-    for (float& value : values.data)
+    for (float& value : values.data) {
         value = value > 0.0f ? std::min(value, largest) : 0.0f;
+    }
     encode_and_write(path, [&](const ImageLibrary& library) { return library.encode_hdr(values); });
 }
 

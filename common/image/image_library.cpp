@@ -16,12 +16,14 @@ constexpr const char* file_name = "libdiptych_images.so";
 
 const ImageLibrary& load() {
     void* library = dlopen(file_name, RTLD_LAZY | RTLD_LOCAL);
-    if (library == nullptr)
+    if (library == nullptr) {
         fail(dlerror());
+    }
     const auto entry = reinterpret_cast<ImageLibraryEntry*>(dlsym(library, image_library_entry));
     const ImageLibrary* images = entry == nullptr ? nullptr : entry(DIPTYCH_VERSION);
-    if (images == nullptr)
+    if (images == nullptr) {
         fail("it belongs to another version than " DIPTYCH_VERSION);
+    }
     return *images;  // stays loaded until the process ends
 }
 

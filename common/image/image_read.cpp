@@ -28,14 +28,18 @@ namespace fs = std::filesystem;
 
 void check_file(const fs::path& path) {
     std::error_code error;
-    if (!fs::exists(path, error))
+    if (!fs::exists(path, error)) {
         fail("no such file" + did_you_mean_file(path));
-    if (fs::is_directory(path, error))
+    }
+    if (fs::is_directory(path, error)) {
         fail("it is a folder, not a file");
-    if (!fs::is_regular_file(path, error))
+    }
+    if (!fs::is_regular_file(path, error)) {
         fail("it is not a regular file");
-    if (fs::file_size(path, error) == 0 && !error)
+    }
+    if (fs::file_size(path, error) == 0 && !error) {
         fail("the file is empty");
+    }
 }
 
 bool begins_like_radiance(const fs::path& path) {
@@ -45,8 +49,9 @@ bool begins_like_radiance(const fs::path& path) {
 }
 
 RawImage read_radiance_raw(const fs::path& path, const std::string& layer) {
-    if (!layer.empty())
+    if (!layer.empty()) {
         fail_without_layers(layer);
+    }
     RawImage raw;
     raw.image = read_radiance(path);
     raw.channel_names = {"R", "G", "B"};
@@ -59,12 +64,15 @@ std::vector<PicturePart> parts_of(const PictureFile& file) {
     std::vector<PicturePart> parts;
     for (const PictureHeader& header : file.headers()) {
         PicturePart part = header.part;
-        if (file.headers().size() == 1)
+        if (file.headers().size() == 1) {
             part.name.clear();
-        if (!file.exr() && part.channels.size() == 1)
+        }
+        if (!file.exr() && part.channels.size() == 1) {
             part.channels = {"Y"};
-        if (part.chromaticities && !is_color_space(*part.chromaticities))
+        }
+        if (part.chromaticities && !is_color_space(*part.chromaticities)) {
             fail("its chromaticities span no colour space");
+        }
         parts.push_back(part);
     }
     return parts;
@@ -97,20 +105,24 @@ void read_channels(PictureFile& file, size_t part, int begin, int end, RawImage&
 }
 
 void check_sizes(const PictureHeader& header, const RawImage& raw, int channels, std::size_t file_bytes) {
-    if (header.depth > 1)
+    if (header.depth > 1) {
         fail("it is a volume, not a picture");
+    }
     const std::string reasons[] = {
         size_claim_problem(header.stored.width, header.stored.height, channels, file_bytes),
         size_claim_problem(raw.display.width, raw.display.height, channels, file_bytes, display_grant)};
-    for (const std::string& reason : reasons)
-        if (!reason.empty())
+    for (const std::string& reason : reasons) {
+        if (!reason.empty()) {
             fail(reason);
+        }
+    }
 }
 
 RawImage read_by_library(const fs::path& path, const std::string& layer, const std::vector<std::string>& beside) {
     const std::unique_ptr<PictureFile> file = image_library().open(path);
-    if (!file->exr() && !layer.empty())
+    if (!file->exr() && !layer.empty()) {
         fail_without_layers(layer);
+    }
     const std::vector<PicturePart> parts = parts_of(*file);
     const ChosenPicture picture = choose_picture(parts, layer);
     const PictureHeader& header = file->headers()[picture.part];
@@ -121,8 +133,9 @@ RawImage read_by_library(const fs::path& path, const std::string& layer, const s
     int end = *std::max_element(picture.channels.begin(), picture.channels.end()) + 1;
     for (const std::string& name : beside) {
         const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end())
+        if (found == names.end()) {
             continue;
+        }
         begin = std::min(begin, static_cast<int>(found - names.begin()));
         end = std::max(end, static_cast<int>(found - names.begin()) + 1);
     }
@@ -131,8 +144,9 @@ RawImage read_by_library(const fs::path& path, const std::string& layer, const s
     find_windows(header, file->exr(), raw);
     check_sizes(header, raw, end - begin, fs::file_size(path));
     raw.channel_names.assign(names.begin() + begin, names.begin() + end);
-    for (const int channel : picture.channels)
+    for (const int channel : picture.channels) {
         raw.color.push_back(channel - begin);
+    }
     raw.integer = header.integer[static_cast<size_t>(picture.channels[0])];
     raw.srgb_encoded = raw.integer && !header.marked_linear;
     raw.xyz = picture.xyz;

@@ -37,14 +37,16 @@ std::string shape_text(const Image& image) {
 void copy_channel(const Image& from, size_t from_channel, Image& to, size_t to_channel) {
     const size_t from_stride = static_cast<size_t>(from.channels);
     const size_t to_stride = static_cast<size_t>(to.channels);
-    for (size_t pixel = 0; pixel < to.pixel_count(); ++pixel)
+    for (size_t pixel = 0; pixel < to.pixel_count(); ++pixel) {
         to.data[pixel * to_stride + to_channel] = from.data[pixel * from_stride + from_channel];
+    }
 }
 
 Image extract(const RawImage& raw, const std::vector<size_t>& sources) {
     Image image = make_image(raw.image.width, raw.image.height, static_cast<int>(sources.size()));
-    for (size_t channel = 0; channel < sources.size(); ++channel)
+    for (size_t channel = 0; channel < sources.size(); ++channel) {
         copy_channel(raw.image, sources[channel], image, channel);
+    }
     return image;
 }
 
@@ -53,8 +55,9 @@ std::optional<Image> extract(const RawImage& raw, const std::vector<std::string>
     std::vector<size_t> sources;
     for (const std::string& name : names) {
         const auto found = std::find(raw.channel_names.begin(), raw.channel_names.end(), name);
-        if (found == raw.channel_names.end())
+        if (found == raw.channel_names.end()) {
             return std::nullopt;
+        }
         sources.push_back(static_cast<size_t>(found - raw.channel_names.begin()));
     }
     return extract(raw, sources);
@@ -75,66 +78,83 @@ void write_exr(const std::filesystem::path& path, const LayeredImage& layers) {
     std::vector<Part> parts = {{&layers.color, &color_channels}};
     const auto require = [&](const char* name, const Image& image, size_t channels) {
         const Image expected{layers.color.width, layers.color.height, static_cast<int>(channels), {}};
-        if (!image.same_shape(expected) || image.data.size() != image.pixel_count() * channels)
+        if (!image.same_shape(expected) || image.data.size() != image.pixel_count() * channels) {
             throw Error(path.string() + ": cannot write: the layer '" + name + "' is " + shape_text(image) + ", not " +
                         shape_text(expected));
+        }
     };
     require("colour", layers.color, color_channels.size());
     for (const OptionalLayer& layer : optional_layers()) {
         const std::optional<Image>& image = layers.*layer.image;
-        if (!image)
+        if (!image) {
             continue;
+        }
         require(layer.name, *image, layer.channels.size());
         parts.push_back({&*image, &layer.channels});
     }
 
     std::vector<std::string> names;
-    for (const Part& part : parts)
+    for (const Part& part : parts) {
         names.insert(names.end(), part.names->begin(), part.names->end());
+    }
     Image all = make_image(layers.color.width, layers.color.height, static_cast<int>(names.size()));
     size_t channel = 0;
-    for (const Part& part : parts)
-        for (size_t source = 0; source < part.names->size(); ++source)
+    for (const Part& part : parts) {
+        for (size_t source = 0; source < part.names->size(); ++source) {
             copy_channel(*part.image, source, all, channel++);
+        }
+    }
 
     std::map<std::string, std::string> attributes;
-    for (const auto& [name, value] : layers.metadata)
-        if (!value.empty())
+    for (const auto& [name, value] : layers.metadata) {
+        if (!value.empty()) {
             attributes[metadata_prefix + name] = value;
+        }
+    }
     write_exr_channels(path, all, names, attributes);
 }
 
 Image linear_color(const RawImage& raw) {
     const bool grey = raw.color.size() == 1;
     std::vector<size_t> sources;
-    for (size_t channel = 0; channel < 3; ++channel)
+    for (size_t channel = 0; channel < 3; ++channel) {
         sources.push_back(static_cast<size_t>(raw.color[grey ? 0 : channel]));
+    }
     Image color = extract(raw, sources);
-    if (raw.srgb_encoded)
-        for (float& value : color.data)
+    if (raw.srgb_encoded) {
+        for (float& value : color.data) {
             value = srgb_decoded(value);
-    if (raw.xyz)
+        }
+    }
+    if (raw.xyz) {
         convert_color(color, xyz_to_rec709(raw.chromaticities->white));
-    else if (!grey && raw.chromaticities && !same_chromaticities(*raw.chromaticities, rec709))
+    } else if (!grey && raw.chromaticities && !same_chromaticities(*raw.chromaticities, rec709)) {
         convert_color(color, to_rec709(*raw.chromaticities));
+    }
     return color;
 }
 
 LayeredImage read_image(const std::filesystem::path& path, const std::string& layer) {
     std::vector<std::string> beside;
-    if (layer.empty())
-        for (const OptionalLayer& optional_layer : optional_layers())
+    if (layer.empty()) {
+        for (const OptionalLayer& optional_layer : optional_layers()) {
             beside.insert(beside.end(), optional_layer.channels.begin(), optional_layer.channels.end());
+        }
+    }
     const RawImage raw = read_raw(path, layer, beside);
     LayeredImage layers;
     layers.color = linear_color(raw);
-    if (layer.empty())
-        for (const OptionalLayer& optional_layer : optional_layers())
+    if (layer.empty()) {
+        for (const OptionalLayer& optional_layer : optional_layers()) {
             layers.*optional_layer.image = extract(raw, optional_layer.channels);
+        }
+    }
     const std::string prefix = metadata_prefix;
-    for (const auto& [name, value] : raw.attributes)
-        if (name.compare(0, prefix.size(), prefix) == 0)
+    for (const auto& [name, value] : raw.attributes) {
+        if (name.compare(0, prefix.size(), prefix) == 0) {
             layers.metadata[name.substr(prefix.size())] = value;
+        }
+    }
     layers.display = raw.display;
     layers.data = raw.data;
     layers.layer = raw.layer;

@@ -28,8 +28,9 @@ bool nearly_equal(double a, double b) {
 
 double z_of(double mean_a, double mean_b, double standard_error) {
     const double difference = mean_a - mean_b;
-    if (difference == 0.0 && standard_error == 0.0)
+    if (difference == 0.0 && standard_error == 0.0) {
         return 0.0;
+    }
     return difference / standard_error;
 }
 
@@ -40,8 +41,9 @@ void trim(std::vector<PixelError>& pixels, Difference& result) {
     std::nth_element(pixels.begin(), first_kept, pixels.end(),
                      [](const PixelError& x, const PixelError& y) { return x.relative > y.relative; });
     double kept_error = 0.0, trimmed_energy = 0.0, kept_energy = 0.0;
-    for (auto pixel = pixels.begin(); pixel != first_kept; ++pixel)
+    for (auto pixel = pixels.begin(); pixel != first_kept; ++pixel) {
         trimmed_energy += pixel->energy;
+    }
     for (auto pixel = first_kept; pixel != pixels.end(); ++pixel) {
         kept_error += pixel->relative;
         kept_energy += pixel->energy;
@@ -56,12 +58,15 @@ void require_comparable(const LayeredImage& a, const LayeredImage& b) {
         return std::to_string(image.width) + "x" + std::to_string(image.height) + " with " +
                std::to_string(image.channels) + " channels";
     };
-    if (!a.color.same_shape(b.color) || a.color.channels != 3)
+    if (!a.color.same_shape(b.color) || a.color.channels != 3) {
         throw Error("the pictures cannot be compared: " + text(a.color) + " against " + text(b.color));
-    for (const LayeredImage* picture : {&a, &b})
-        if (picture->standard_error && !picture->standard_error->same_shape(picture->color))
+    }
+    for (const LayeredImage* picture : {&a, &b}) {
+        if (picture->standard_error && !picture->standard_error->same_shape(picture->color)) {
             throw Error("the pictures cannot be compared: a standard error of " + text(*picture->standard_error) +
                         " beside colour of " + text(picture->color));
+        }
+    }
 }
 
 }  // namespace
@@ -78,8 +83,9 @@ Difference compare_images(const LayeredImage& a, const LayeredImage& b) {
     for (size_t i = 0; i < a.color.data.size(); i += 3) {
         const float* rgb_a = &a.color.data[i];
         const float* rgb_b = &b.color.data[i];
-        if (!all_finite(rgb_a) || !all_finite(rgb_b))
+        if (!all_finite(rgb_a) || !all_finite(rgb_b)) {
             continue;
+        }
         PixelError pixel{0.0, 0.0};
         bool pixel_equal = true;
         for (size_t channel = 0; channel < 3; ++channel) {
@@ -91,8 +97,9 @@ Difference compare_images(const LayeredImage& a, const LayeredImage& b) {
             pixel_equal = pixel_equal && nearly_equal(value_a, value_b);
             sum_a[channel] += value_a;
             sum_b[channel] += value_b;
-            if (!has_errors)
+            if (!has_errors) {
                 continue;
+            }
             const double error_a = a.standard_error->data[i + channel], error_b = b.standard_error->data[i + channel];
             variance[channel] += error_a * error_a + error_b * error_b;
         }
@@ -109,17 +116,19 @@ Difference compare_images(const LayeredImage& a, const LayeredImage& b) {
                       {unknown, unknown, unknown},
                       unknown,
                       a.color.pixel_count() - pixels.size()};
-    if (pixels.empty())
+    if (pixels.empty()) {
         return result;
+    }
     const double count = static_cast<double>(pixels.size());
     result.mse = squared / (3.0 * count);
     result.relmse = relative / (3.0 * count);
     result.fraction_equal = static_cast<double>(equal) / count;
     for (size_t channel = 0; channel < 3; ++channel) {
         result.mean_ratio[channel] = sum_a[channel] / sum_b[channel];
-        if (has_errors)
+        if (has_errors) {
             result.z_mean[channel] =
                 z_of(sum_a[channel] / count, sum_b[channel] / count, std::sqrt(variance[channel]) / count);
+        }
     }
     trim(pixels, result);
     return result;

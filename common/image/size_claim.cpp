@@ -13,14 +13,17 @@ constexpr double most_packed = 1 << 17;
 std::string size_claim_problem(std::int64_t width, std::int64_t height, std::int64_t channels, std::size_t file_bytes,
                                double grant) {
     const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels";
-    if (width < 1 || height < 1 || channels < 1)
+    if (width < 1 || height < 1 || channels < 1) {
         return "it holds no pixels (" + size + ")";
-    if (width > longest_side || height > longest_side || width * height > most_pixels)
+    }
+    if (width > longest_side || height > longest_side || width * height > most_pixels) {
         return size + " are more than Diptych reads (" + std::to_string(longest_side) + " a side, " +
                std::to_string(most_pixels) + " in all)";
+    }
     const double bytes = 4.0 * static_cast<double>(width * height) * static_cast<double>(channels);
-    if (bytes > grant && bytes > most_packed * static_cast<double>(file_bytes))
+    if (bytes > grant && bytes > most_packed * static_cast<double>(file_bytes)) {
         return "a file of " + std::to_string(file_bytes) + " bytes cannot hold the " + size + " that its header claims";
+    }
     return "";
 }
 

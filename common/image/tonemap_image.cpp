@@ -30,23 +30,27 @@ static_assert(static_cast<uint32_t>(ToneMap::PbrNeutral) == shared::TONEMAP_PBR_
 ToneMap tonemap_from_name(std::string_view name) {
     std::string known;
     for (const Name& candidate : names) {
-        if (name == candidate.text)
+        if (name == candidate.text) {
             return candidate.op;
+        }
         known += (known.empty() ? "" : ", ") + std::string(candidate.text);
     }
     throw Error("unknown tone map '" + std::string(name) + "' (known: " + known + ")");
 }
 
 const char* tonemap_name(ToneMap op) {
-    for (const Name& candidate : names)
-        if (op == candidate.op)
+    for (const Name& candidate : names) {
+        if (op == candidate.op) {
             return candidate.text;
+        }
+    }
     return "unknown";
 }
 
 Image tonemapped(const Image& linear_rgb, ToneMap op, float exposure_ev) {
-    if (linear_rgb.channels != 3)
+    if (linear_rgb.channels != 3) {
         throw Error("a tone map needs 3 channels, the image has " + std::to_string(linear_rgb.channels));
+    }
     const float exposure = std::exp2(exposure_ev);
     Image display = linear_rgb;
     for (size_t i = 0; i + 2 < display.data.size(); i += 3) {

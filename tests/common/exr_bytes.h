@@ -39,8 +39,9 @@ inline void put_attribute(std::string& bytes, const char* name, const char* type
 
 inline std::string box_bytes(const PixelWindow& window) {
     std::string bytes;
-    for (const int value : {window.x, window.y, window.x + window.width - 1, window.y + window.height - 1})
+    for (const int value : {window.x, window.y, window.x + window.width - 1, window.y + window.height - 1}) {
         put(bytes, static_cast<std::int32_t>(value));
+    }
     return bytes;
 }
 
@@ -49,8 +50,9 @@ inline void put_header(std::string& bytes, const ExrPart& part, bool one_of_seve
     std::string channels;
     for (const auto& [name, values] : part.channels) {
         channels.append(name).push_back('\0');
-        for (const std::int32_t value : {float_pixels, std::int32_t{0}, sampling, sampling})
+        for (const std::int32_t value : {float_pixels, std::int32_t{0}, sampling, sampling}) {
             put(channels, value);
+        }
     }
     channels.push_back('\0');
     std::string one, zeros(8, '\0'), chromaticities;
@@ -81,13 +83,16 @@ inline std::string exr_bytes(const std::vector<ExrPart>& parts) {
     const bool several = parts.size() > 1;
     std::string bytes = "\x76\x2f\x31\x01";
     put(bytes, std::uint32_t{several ? 0x1002u : 2u});
-    for (const ExrPart& part : parts)
+    for (const ExrPart& part : parts) {
         put_header(bytes, part, several);
-    if (several)
+    }
+    if (several) {
         bytes.push_back('\0');
+    }
     size_t table_rows = 0;
-    for (const ExrPart& part : parts)
+    for (const ExrPart& part : parts) {
         table_rows += static_cast<size_t>(part.data.height);
+    }
     std::string table, chunks;
     const size_t first_chunk = bytes.size() + table_rows * sizeof(std::uint64_t);
     for (size_t number = 0; number < parts.size(); ++number) {
@@ -95,12 +100,14 @@ inline std::string exr_bytes(const std::vector<ExrPart>& parts) {
         const size_t width = static_cast<size_t>(part.data.width);
         for (int row = 0; row < part.data.height; ++row) {
             put(table, static_cast<std::uint64_t>(first_chunk + chunks.size()));
-            if (several)
+            if (several) {
                 put(chunks, static_cast<std::int32_t>(number));
+            }
             put(chunks, static_cast<std::int32_t>(part.data.y + row));
             put(chunks, static_cast<std::int32_t>(part.channels.size() * width * sizeof(float)));
-            for (const auto& [name, values] : part.channels)
+            for (const auto& [name, values] : part.channels) {
                 put(chunks, values.data() + static_cast<size_t>(row) * width, width * sizeof(float));
+            }
         }
     }
     return bytes + table + chunks;
@@ -110,8 +117,9 @@ inline std::string exr_bytes(const std::vector<ExrPart>& parts) {
 inline ExrPart constant_part(const PixelWindow& data, const std::map<std::string, float>& channels) {
     ExrPart part;
     part.data = data;
-    for (const auto& [name, value] : channels)
+    for (const auto& [name, value] : channels) {
         part.channels[name].assign(static_cast<size_t>(data.width) * static_cast<size_t>(data.height), value);
+    }
     return part;
 }
 

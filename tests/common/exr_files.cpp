@@ -57,10 +57,11 @@ Read read(const std::filesystem::path& file, const std::string& layer = "") {
         sky = {map.texels[0].x, map.texels[0].y, map.texels[0].z};
     });
     CHECK(sky_refusal == (result.refusal.empty() ? "" : "environment map " + result.refusal));
-    if (result.refusal.empty())
+    if (result.refusal.empty()) {
         CHECK(sky == result.pixel);
-    else
+    } else {
         CHECK(contains(result.refusal, "a.exr: cannot read: "));
+    }
     return result;
 }
 
@@ -79,12 +80,13 @@ TEST_CASE("the data window of an EXR is placed in its display window", "[image]"
     REQUIRE(image.color.width == 5);
     REQUIRE(image.color.height == 4);
     const std::vector<float> reds = {0, 0, 0, 4, 5, 0, 0, 0, 7, 8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-    for (int y = 0; y < 4; ++y)
+    for (int y = 0; y < 4; ++y) {
         for (int x = 0; x < 5; ++x) {
             const float red = reds[static_cast<size_t>(5 * y + x)];
             CHECK(image.color.at(x, y, 0) == red);
             CHECK(image.color.at(x, y, 2) == (red > 0 ? 3 : 0));
         }
+    }
     CHECK(image.display == PixelWindow{-1, 0, 5, 4});
     CHECK(image.data == PixelWindow{2, 0, 2, 2});
     const Environment map = load_environment(folder / "a.exr");
@@ -118,8 +120,9 @@ TEST_CASE("layers and parts of an EXR are chosen by name", "[image]") {
     const std::vector<float> picture = {1, 2, 3};
     const auto layered = [&](const std::string& layer, float scale) {
         std::map<std::string, float> channels;
-        for (const auto& [name, value] : rgb)
+        for (const auto& [name, value] : rgb) {
             channels[layer + "." + name] = scale * value;
+        }
         return channels;
     };
     std::map<std::string, float> two = layered("albedo", 2);
@@ -209,8 +212,9 @@ TEST_CASE("an EXR of other chromaticities becomes Rec.709", "[image]") {
                            const std::vector<double>& expected) {
         const LayeredImage image =
             read_image(write(folder, {with_chromaticities(constant_part(whole, channels), chromaticities)}));
-        for (int c = 0; c < 3; ++c)
+        for (int c = 0; c < 3; ++c) {
             CHECK(image.color.at(3, 1, c) == Approx(expected[static_cast<size_t>(c)]).margin(5e-5));
+        }
     };
     const auto rgb = [](float r, float g, float b) {
         return std::map<std::string, float>{{"R", r}, {"G", g}, {"B", b}};

@@ -75,8 +75,9 @@ const Material& material_of(const Scene& scene, const std::string& name) {
 }
 
 void check_color(const glm::dvec3& color, const glm::dvec3& expected, double tolerance) {
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; ++i) {
         CHECK(std::abs(color[i] - expected[i]) <= tolerance);
+    }
 }
 
 /// Every vertex of the object is one of the published millimetres, and each of those is met.
@@ -87,14 +88,16 @@ void check_vertices(const Scene& scene, const std::string& name, const std::vect
         for (const glm::dvec3& p : {triangle.a, triangle.b, triangle.c}) {
             bool known = false;
             for (std::size_t i = 0; i < millimetres.size(); ++i) {
-                if (glm::length(1000.0 * p - millimetres[i]) < 1e-3)
+                if (glm::length(1000.0 * p - millimetres[i]) < 1e-3) {
                     known = met[i] = true;
+                }
             }
             CHECK(known);
         }
     }
-    for (const bool one : met)
+    for (const bool one : met) {
         CHECK(one);
+    }
 }
 
 }  // namespace
@@ -165,15 +168,19 @@ TEST_CASE("cornell's ceiling and light together cover the top once, and all face
     CHECK(std::abs(covered - 0.556 * 0.5592) < 1e-7);
 
     const glm::dvec3 middle(0.278, 0.274, 0.28);
-    for (const char* name : {"floor", "back wall", "left wall", "right wall"})
-        for (const WorldTriangle& triangle : world_triangles(scene, find_instance(scene, name)))
+    for (const char* name : {"floor", "back wall", "left wall", "right wall"}) {
+        for (const WorldTriangle& triangle : world_triangles(scene, find_instance(scene, name))) {
             CHECK(glm::dot(triangle.area_vector(), middle - triangle.center()) > 0);
+        }
+    }
     for (const char* name : {"short block", "tall block"}) {
         const auto triangles = world_triangles(scene, find_instance(scene, name));
         glm::dvec3 center(0);
-        for (const WorldTriangle& triangle : triangles)
+        for (const WorldTriangle& triangle : triangles) {
             center += triangle.center() / double(triangles.size());
-        for (const WorldTriangle& triangle : triangles)
+        }
+        for (const WorldTriangle& triangle : triangles) {
             CHECK(glm::dot(triangle.area_vector(), triangle.center() - center) > 0);
+        }
     }
 }

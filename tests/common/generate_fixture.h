@@ -44,9 +44,11 @@ inline std::vector<WorldTriangle> world_triangles(const Scene& scene, const Inst
 }
 
 inline const Instance& find_instance(const Scene& scene, const std::string& name) {
-    for (const Instance& instance : scene.instances)
-        if (instance.name == name)
+    for (const Instance& instance : scene.instances) {
+        if (instance.name == name) {
             return instance;
+        }
+    }
     throw std::runtime_error("no instance is called " + name);
 }
 

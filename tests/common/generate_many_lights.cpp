@@ -17,10 +17,13 @@ Scene street(std::uint64_t count, std::uint32_t seed = 1) {
 
 std::vector<WorldTriangle> emitters_of(const Scene& scene) {
     std::vector<WorldTriangle> out;
-    for (const Instance& instance : scene.instances)
-        for (const WorldTriangle& triangle : world_triangles(scene, instance))
-            if (triangle.material->emission != glm::vec3(0))
+    for (const Instance& instance : scene.instances) {
+        for (const WorldTriangle& triangle : world_triangles(scene, instance)) {
+            if (triangle.material->emission != glm::vec3(0)) {
                 out.push_back(triangle);
+            }
+        }
+    }
     return out;
 }
 
@@ -38,8 +41,9 @@ std::vector<Box> boxes_of(const Scene& scene) {
     std::vector<Box> out;
     for (const Instance& instance : scene.instances) {
         const auto& primitive = scene.meshes[std::size_t(instance.mesh)].primitives[0];
-        if (primitive.triangles.size() != 12 || !instance.name.empty())
+        if (primitive.triangles.size() != 12 || !instance.name.empty()) {
             continue;
+        }
         out.push_back({glm::dvec3(instance.object_to_world * glm::dvec4(0, 0, 0, 1)),
                        glm::dvec3(instance.object_to_world * glm::dvec4(1, 1, 1, 1))});
     }
@@ -52,8 +56,9 @@ bool is_blocked(const glm::dvec3& from, const glm::dvec3& to, const std::vector<
         for (int i = 0; i < 3; ++i) {
             const double step = to[i] - from[i];
             if (step == 0) {
-                if (from[i] < box.low[i] || from[i] > box.high[i])
+                if (from[i] < box.low[i] || from[i] > box.high[i]) {
                     return false;
+                }
                 continue;
             }
             const double a = (box.low[i] - from[i]) / step, b = (box.high[i] - from[i]) / step;
@@ -73,8 +78,9 @@ TEST_CASE("many-lights has exactly as many emitting triangles as asked for", "[g
         CHECK(emitters.size() == count);
         CHECK(scene.instances.size() < 3000);
         CHECK(scene.materials.size() < 100);
-        for (const WorldTriangle& triangle : emitters)
+        for (const WorldTriangle& triangle : emitters) {
             CHECK(glm::length(triangle.area_vector()) > 0);
+        }
     }
     CHECK_THROWS_AS(street(0), Error);
 }
@@ -82,8 +88,9 @@ TEST_CASE("many-lights has exactly as many emitting triangles as asked for", "[g
 TEST_CASE("many-lights spreads power evenly over six decades", "[generate]") {
     const Scene scene = street(20000);
     std::vector<double> exponents;
-    for (const WorldTriangle& triangle : emitters_of(scene))
+    for (const WorldTriangle& triangle : emitters_of(scene)) {
         exponents.push_back(std::log10(power(triangle)));
+    }
     std::sort(exponents.begin(), exponents.end());
     CHECK(std::abs(exponents.back() - exponents.front() - 6) < 1e-3);
     for (std::size_t i = 0; i < exponents.size(); i += 500) {
@@ -96,8 +103,9 @@ TEST_CASE("many-lights sends out the same power whatever the count", "[generate]
     for (const std::uint64_t count : {1000, 30000}) {
         double sum = 0;
         const Scene scene = street(count);
-        for (const WorldTriangle& triangle : emitters_of(scene))
+        for (const WorldTriangle& triangle : emitters_of(scene)) {
             sum += power(triangle);
+        }
         CHECK(sum > 2.2e4);
         CHECK(sum < 3.8e4);
     }

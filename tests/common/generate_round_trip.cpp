@@ -14,10 +14,13 @@ namespace {
 
 template <typename Matrix>
 bool are_close(const Matrix& a, const Matrix& b, double tolerance) {
-    for (int i = 0; i < a.length(); ++i)
-        for (int k = 0; k < a[i].length(); ++k)
-            if (!(std::abs(a[i][k] - b[i][k]) <= tolerance))
+    for (int i = 0; i < a.length(); ++i) {
+        for (int k = 0; k < a[i].length(); ++k) {
+            if (!(std::abs(a[i][k] - b[i][k]) <= tolerance)) {
                 return false;
+            }
+        }
+    }
     return true;
 }
 
@@ -27,8 +30,9 @@ bool are_close(const glm::vec3& a, const glm::vec3& b, float tolerance) {
 
 void check_slot(const Scene& a, const TextureSlot& slot_a, const Scene& b, const TextureSlot& slot_b) {
     REQUIRE((slot_a.texture == none) == (slot_b.texture == none));
-    if (slot_a.texture == none)
+    if (slot_a.texture == none) {
         return;
+    }
     CHECK(slot_a.uv_set == slot_b.uv_set);
     CHECK(are_close(slot_a.u_row, slot_b.u_row, 1e-5F));
     CHECK(are_close(slot_a.v_row, slot_b.v_row, 1e-5F));
@@ -82,8 +86,9 @@ void check_scene(const Scene& a, const Scene& b) {
                               s.uvs == t.uvs && s.colors == t.colors && s.normals.size() == t.normals.size();
             CHECK(same);
             bool normals_agree = same;  // the import makes them unit vectors again
-            for (std::size_t n = 0; same && n < s.normals.size(); ++n)
+            for (std::size_t n = 0; same && n < s.normals.size(); ++n) {
                 normals_agree = normals_agree && are_close(s.normals[n], t.normals[n], 1e-6F);
+            }
             CHECK(normals_agree);
             check_material(a, a.materials.at(std::size_t(s.material)), b, b.materials.at(std::size_t(t.material)));
         }
@@ -94,10 +99,11 @@ void check_scene(const Scene& a, const Scene& b) {
         CHECK(p.name == q.name);
         CHECK(are_close(p.camera_to_world, q.camera_to_world, 1e-12));
         CHECK(p.orthographic == q.orthographic);
-        if (!p.orthographic)
+        if (!p.orthographic) {
             CHECK(p.vertical_fov == q.vertical_fov);
-        else
+        } else {
             CHECK(p.orthographic_height == q.orthographic_height);
+        }
     }
     REQUIRE(a.lights.size() == b.lights.size());
     for (std::size_t i = 0; i < a.lights.size(); ++i) {
@@ -246,10 +252,12 @@ TEST_CASE("primitives of more than 65535 vertices survive being written and read
         scene.materials.emplace_back();
         Primitive primitive;
         primitive.material = 0;
-        for (std::size_t i = 0; i < vertices; ++i)
+        for (std::size_t i = 0; i < vertices; ++i) {
             primitive.positions.push_back({float(i), float(i % 3), float(i * i % 101)});
-        for (std::uint32_t i = 0; i + 2 < vertices; ++i)
+        }
+        for (std::uint32_t i = 0; i + 2 < vertices; ++i) {
             primitive.triangles.push_back({i, i + 1, i + 2});
+        }
         scene.meshes = {{"large", {primitive}}};
         scene.instances = {{"large", 0, glm::dmat4(1)}};
         write_gltf(scene, folder.path() / "large.glb");

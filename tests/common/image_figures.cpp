@@ -19,15 +19,17 @@ double luminance(const Image& image, int x) {
 
 TEST_CASE("The heatmap grows brighter with the value and marks what is not finite", "[image]") {
     Image scalar = make_image(203, 1, 1);
-    for (int x = 0; x < 200; ++x)
+    for (int x = 0; x < 200; ++x) {
         scalar.at(x, 0, 0) = 2.0f + 3.0f * static_cast<float>(x) / 199.0f;
+    }
     scalar.at(200, 0, 0) = -100.0f;
     scalar.at(201, 0, 0) = 100.0f;
     scalar.at(202, 0, 0) = std::numeric_limits<float>::quiet_NaN();
     const Image map = heatmap(scalar, 2.0f, 5.0f);
     REQUIRE(map.channels == 3);
-    for (int x = 1; x < 200; ++x)
+    for (int x = 1; x < 200; ++x) {
         CHECK(luminance(map, x) > luminance(map, x - 1));
+    }
     for (int channel = 0; channel < 3; ++channel) {
         CHECK(map.at(200, 0, channel) == map.at(0, 0, channel));
         CHECK(map.at(201, 0, channel) == map.at(199, 0, channel));
@@ -58,12 +60,13 @@ TEST_CASE("Panels stand side by side with a white gap", "[image]") {
     const Image left = random_image(3, 2, 3, 1), middle = random_image(2, 2, 3, 2), right = random_image(4, 2, 3, 3);
     const Image all = side_by_side({left, middle, right}, 2);
     REQUIRE((all.width == 3 + 2 + 2 + 2 + 4 && all.height == 2 && all.channels == 3));
-    for (int y = 0; y < 2; ++y)
+    for (int y = 0; y < 2; ++y) {
         for (int channel = 0; channel < 3; ++channel) {
             CHECK(all.at(2, y, channel) == left.at(2, y, channel));
             CHECK(all.at(3, y, channel) == 1.0f);
             CHECK(all.at(5, y, channel) == middle.at(0, y, channel));
             CHECK(all.at(12, y, channel) == right.at(3, y, channel));
         }
+    }
     CHECK_FALSE(error_of([&] { side_by_side({left, make_image(3, 3, 3)}); }).empty());
 }

@@ -128,8 +128,9 @@ TEST_CASE("Grey PNG reads as three equal channels", "[image]") {
     write_png(folder / "grey.png", make_image(3, 2, 1, 128.0f / 255.0f));
     const LayeredImage read = read_image(folder / "grey.png");
     REQUIRE(read.color.channels == 3);
-    for (const float value : read.color.data)
+    for (const float value : read.color.data) {
         CHECK(value == Approx(0.2158605).epsilon(1e-5));
+    }
 }
 
 TEST_CASE("sRGB decoding matches IEC 61966-2-1", "[image]") {
@@ -151,12 +152,14 @@ TEST_CASE("HDR keeps linear values to the precision of its shared exponent", "[i
     CHECK(read.data[0] == 0.0f);
     CHECK(read.data[1] == 0.0f);
     bool close = true;
-    for (int y = 0; y < linear.height; ++y)
+    for (int y = 0; y < linear.height; ++y) {
         for (int x = 1; x < linear.width; ++x) {
             const float largest = std::max({linear.at(x, y, 0), linear.at(x, y, 1), linear.at(x, y, 2)});
-            for (int channel = 0; channel < 3; ++channel)
+            for (int channel = 0; channel < 3; ++channel) {
                 close = close && std::abs(read.at(x, y, channel) - linear.at(x, y, channel)) <= largest / 128.0f;
+            }
         }
+    }
     CHECK(close);
 }
 
@@ -183,8 +186,9 @@ TEST_CASE("Unreadable pictures are refused with file and reason", "[image]") {
 TEST_CASE("Outputs that cannot be written are refused before the work starts", "[image]") {
     const TemporaryFolder folder;
     const auto refusal = [](const std::filesystem::path& path) { return error_of([&] { check_writable(path); }); };
-    for (const char* name : {"a.exr", "b.PNG", "c.hdr"})
+    for (const char* name : {"a.exr", "b.PNG", "c.hdr"}) {
         CHECK(refusal(folder / name).empty());
+    }
     CHECK(folder.file_count() == 0);
     CHECK(contains(refusal(folder / "a.jpg"), "unknown extension '.jpg' (known: .exr, .png, .hdr)"));
     CHECK(contains(refusal(folder / "a"), "unknown extension ''"));

@@ -88,8 +88,9 @@ TEST_CASE("Pixels that are not finite are counted and left out", "[image]") {
     CHECK(d.nonfinite == 2);
     CHECK(d.mse == 1.0);
     CHECK(d.mean_ratio[0] == 0.5);
-    for (float& value : a.color.data)
+    for (float& value : a.color.data) {
         value = std::numeric_limits<float>::quiet_NaN();
+    }
     CHECK(compare_images(a, b).nonfinite == 4);
     CHECK(std::isnan(compare_images(a, b).mse));
 }
@@ -121,8 +122,9 @@ TEST_CASE("z tells noise from a shift, and has unit spread", "[image]") {
     CHECK(std::abs(sum_of_squares / count - 1.0) < 4.0 * std::sqrt(2.0 / count));
 
     const Difference shifted = compare_images(noisy(1.05f, 1000), noisy(1.0f, 1001));
-    for (const double z : shifted.z_mean)
+    for (const double z : shifted.z_mean) {
         CHECK(z > 8.0);
+    }
 }
 
 TEST_CASE("Pictures of different shape are not compared", "[image]") {

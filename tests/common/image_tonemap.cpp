@@ -9,8 +9,9 @@ using namespace diptych::core;
 using namespace diptych::core::image_tests;
 
 TEST_CASE("Tone maps have names, and an unknown one lists them", "[image]") {
-    for (const char* name : {"none", "exponential", "uncharted2", "aces", "pbr-neutral"})
+    for (const char* name : {"none", "exponential", "uncharted2", "aces", "pbr-neutral"}) {
         CHECK(tonemap_name(tonemap_from_name(name)) == std::string(name));
+    }
     const std::string message = error_of([] { tonemap_from_name("filmic"); });
     CHECK(contains(message, "'filmic' (known: none, exponential, uncharted2, aces, pbr-neutral)"));
 }
@@ -19,8 +20,9 @@ TEST_CASE("Without a tone map, display values decode to the exposed radiance", "
     const Image linear = random_image(16, 16, 3, 5, 0.0f, 0.25f);
     const Image display = tonemapped(linear, ToneMap::None, 1.5f);
     REQUIRE(display.same_shape(linear));
-    for (size_t i = 0; i < linear.data.size(); ++i)
+    for (size_t i = 0; i < linear.data.size(); ++i) {
         CHECK(srgb_decoded(display.data[i]) == Approx(linear.data[i] * std::exp2(1.5f)).epsilon(1e-3).margin(1e-5));
+    }
     CHECK_FALSE(error_of([] { tonemapped(make_image(1, 1, 1), ToneMap::None, 0.0f); }).empty());
 }
 

@@ -56,14 +56,17 @@ TEST_CASE("a Radiance picture is upright whatever its resolution line", "[image]
     for (const Orientation& orientation : orientations) {
         INFO(orientation.line);
         std::string bytes = plain_header + orientation.line + "\n";
-        for (const int red : orientation.reds)
+        for (const int red : orientation.reds) {
             bytes += rgbe(red, 0, 0);
+        }
         const Image image = read_bytes(folder, bytes);
         REQUIRE(image.width == 3);
         REQUIRE(image.height == 2);
-        for (int y = 0; y < 2; ++y)
-            for (int x = 0; x < 3; ++x)
+        for (int y = 0; y < 2; ++y) {
+            for (int x = 0; x < 3; ++x) {
                 CHECK(image.at(x, y, 0) == static_cast<float>(16 * y + x + 64) / 128);
+            }
+        }
     }
 }
 
@@ -85,8 +88,9 @@ TEST_CASE("EXPOSURE and COLORCORR of a Radiance picture are divided out", "[imag
 TEST_CASE("colours of a Radiance picture become Rec.709", "[image]") {
     const TemporaryFolder folder;
     const auto close = [](const std::array<float, 3>& a, const std::array<double, 3>& b) {
-        for (size_t c = 0; c < 3; ++c)
+        for (size_t c = 0; c < 3; ++c) {
             CHECK(a[c] == Approx(b[c]).margin(2e-3));
+        }
     };
     const std::string xyze = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n";
     // The columns of IEC 61966-2-1, equation (7), from CIE XYZ to linear sRGB.
@@ -139,8 +143,10 @@ TEST_CASE("Radiance pictures that are wrong are refused by what is wrong", "[ima
     CHECK(contains(refusal(folder, header(format + "GAMMA=2.2") + pixel), "'GAMMA=2.2' says"));
     CHECK(contains(refusal(folder, header(format + "PRIMARIES=1 1 1 1 1 1 1 1") + pixel), "spans no colour space"));
     CHECK(contains(refusal(folder, "#?RADIANCE\n" + format), "the header has no end"));
-    for (const std::string line : {"-Y 1 +Y 1", "-Y 0 +X 1", "-Y -1 +X 1", "Y 1 X 1", "-Y 1", "", "-Y 9999999999 +X 1"})
+    for (const std::string line :
+         {"-Y 1 +Y 1", "-Y 0 +X 1", "-Y -1 +X 1", "Y 1 X 1", "-Y 1", "", "-Y 9999999999 +X 1"}) {
         CHECK(contains(refusal(folder, plain_header + line + "\n" + pixel), "the resolution line '" + line + "'"));
+    }
     CHECK(contains(refusal(folder, plain_header + "-Y 2 +X 2\n" + pixel + pixel + pixel + rgbe(1, 1, 1, 9)),
                    "scanline 1 of 2: a run of pixels does not fit"));
     CHECK(contains(refusal(folder, plain_header + "-Y 2 +X 4\n" + pixel + pixel + pixel + pixel + pixel),

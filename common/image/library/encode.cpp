@@ -12,12 +12,15 @@ ImageLibrary::Bytes encode(const std::string& format, const OIIO::ImageSpec& spe
                            const void* pixels) {
     OIIO::Filesystem::IOVecOutput memory;
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-    if (!output)
+    if (!output) {
         fail_by_library(OIIO::geterror());
-    if (!output->set_ioproxy(&memory))
+    }
+    if (!output->set_ioproxy(&memory)) {
         fail_by_library("OpenImageIO cannot encode " + format + " in memory");
-    if (!output->open("memory." + format, spec) || !output->write_image(type, pixels) || !output->close())
+    }
+    if (!output->open("memory." + format, spec) || !output->write_image(type, pixels) || !output->close()) {
         fail_by_library(output->geterror());
+    }
     return memory.buffer();
 }
 
@@ -29,8 +32,9 @@ ImageLibrary::Bytes exr_bytes(const Image& image, const std::vector<std::string>
     spec.channelnames = channel_names;
     spec.attribute("compression", "zip");
     spec.attribute("DateTime", "");  // else the time of writing: equal pictures are to be equal files
-    for (const auto& [name, value] : attributes)
+    for (const auto& [name, value] : attributes) {
         spec.attribute(name, value);
+    }
     return encode("exr", spec, OIIO::TypeFloat, image.data.data());
 }
 
@@ -42,8 +46,9 @@ ImageLibrary::Bytes hdr_bytes(const Image& image) {
 ImageLibrary::Bytes png_bytes(const ByteImage& image, bool srgb) {
     OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeUInt8);
     spec.attribute("oiio:UnassociatedAlpha", 1);  // else the colours are taken for premultiplied
-    if (srgb)
+    if (srgb) {
         spec.attribute("oiio:ColorSpace", "sRGB");
+    }
     return encode("png", spec, OIIO::TypeUInt8, image.data.data());
 }
 

@@ -19,17 +19,21 @@ PictureHeader header_of(const OIIO::ImageSpec& spec, bool exr) {
     header.part.channels = spec.channelnames;
     header.part.deep = spec.deep;
     std::array<float, 8> v{};
-    if (exr && spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), v.data()))
+    if (exr && spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), v.data())) {
         header.part.chromaticities = Chromaticities{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
+    }
     header.stored = {spec.x, spec.y, spec.width, spec.height};
     header.display = {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
     header.depth = spec.depth;
-    for (int channel = 0; channel < spec.nchannels; ++channel)
+    for (int channel = 0; channel < spec.nchannels; ++channel) {
         header.integer.push_back(!spec.channelformat(channel).is_floating_point());
+    }
     header.marked_linear = OIIO::Strutil::istarts_with(spec.get_string_attribute("oiio:ColorSpace"), "lin");
-    for (const OIIO::ParamValue& attribute : spec.extra_attribs)
-        if (attribute.type() == OIIO::TypeString)
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+        if (attribute.type() == OIIO::TypeString) {
             header.attributes[attribute.name().string()] = attribute.get_ustring().string();
+        }
+    }
     return header;
 }
 
@@ -42,8 +46,9 @@ public:
           exr_(std::string_view(input_->format_name()) == "openexr") {
         const int parts = exr_ ? std::max(1, input_->spec().get_int_attribute("oiio:subimages", 1)) : 1;
         for (int part = 0; part < parts; ++part) {
-            if (!input_->seek_subimage(part, 0))
+            if (!input_->seek_subimage(part, 0)) {
                 fail_by_library(input_->geterror());
+            }
             headers_.push_back(header_of(input_->spec(), exr_));
         }
     }
@@ -59,8 +64,9 @@ public:
 
 private:
     void read(size_t part, int begin, int end, OIIO::TypeDesc type, void* values) {
-        if (!input_->read_image(static_cast<int>(part), 0, begin, end, type, values))
+        if (!input_->read_image(static_cast<int>(part), 0, begin, end, type, values)) {
             fail_by_library(input_->geterror());
+        }
     }
 
     std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;  // before input_, which is to go first
@@ -81,8 +87,9 @@ OIIO::ImageSpec unassociated_alpha() {
 std::unique_ptr<PictureFile> open_picture(const std::filesystem::path& path) {
     const OIIO::ImageSpec config = unassociated_alpha();
     std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
-    if (!input)
+    if (!input) {
         fail_by_library(OIIO::geterror());
+    }
     return std::make_unique<OpenPicture>(nullptr, std::move(input));
 }
 
@@ -100,8 +107,9 @@ std::unique_ptr<PictureFile> open_picture(const std::string& name, std::span<con
         const std::lock_guard lock(one_at_a_time);
         input = OIIO::ImageInput::open(name, &config);
     }
-    if (!input)
+    if (!input) {
         fail_by_library(OIIO::geterror());
+    }
     return std::make_unique<OpenPicture>(std::move(memory), std::move(input));
 }
 
