@@ -6,6 +6,7 @@ DIPTYCH_BEGIN
 Error::Error(const std::string& message) : std::runtime_error(message) {}
 Error::Error(const Error&) = default;
 Error::~Error() = default;
+SettingError::~SettingError() = default;
 NoDevice::~NoDevice() = default;
 DeviceLost::~DeviceLost() = default;
 Interrupted::~Interrupted() = default;

@@ -132,5 +132,6 @@ std::string core_name(Backend backend);
 void check(const Tables& tables, const core::Scene& scene);
 void check(const Camera& camera);
 void check(const Settings& settings, std::size_t cameras);
+void check(const BackendChoice& choice);
 
 DIPTYCH_END

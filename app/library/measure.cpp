@@ -60,11 +60,11 @@ Verdict verify(const Scene& scene, const VerifyOptions& options) {
         const std::shared_ptr<const core::Scene> content = Impl::data(scene).snapshot();
         check(options.settings, content->cameras.size());
         if (options.runs < 3 || options.spp == 0 || options.tile < 1) {
-            throw Error(fmt::format("verify: runs is {}, spp {}, tile {}; they have to be at least 3, 1 and 1",
+            throw SettingError(fmt::format("verify: runs is {}, spp {}, tile {}; they have to be at least 3, 1 and 1",
                                     options.runs, options.spp, options.tile));
         }
         if (!(options.alpha > 0 && options.alpha < 1)) {
-            throw Error(fmt::format("verify: alpha is {:g}; it has to lie between 0 and 1", options.alpha));
+            throw SettingError(fmt::format("verify: alpha is {:g}; it has to lie between 0 and 1", options.alpha));
         }
         core::VerifySettings settings;
         settings.runs = options.runs;

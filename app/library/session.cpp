@@ -108,6 +108,7 @@ Session::Session(const Scene& scene, const BackendChoice& backend, const Setting
                  const SessionOptions& options)
     : data_(std::make_unique<SessionData>()) {
     guarded([&] {
+        check(backend);
         data_->scene = Impl::shared(scene);
         data_->content = data_->scene->snapshot();
         data_->revision = data_->scene->revision;
@@ -131,10 +132,10 @@ RenderResult Session::render(std::uint32_t first, std::uint32_t count, const Ren
             throw Error(fmt::format("session: sample {} was rendered before; the next is {}", first, d.done()));
         }
         if (count == 0 && options.seconds <= 0 && options.relmse <= 0) {
-            return RenderResult();
+            throw SettingError("session: 0 samples need a limit of seconds or relmse");
         }
         if (options.relmse > 0 && !d.settings.standard_error) {
-            throw Error("session: relmse needs the setting standard_error");
+            throw SettingError("session: relmse needs the setting standard_error");
         }
         // The film stays even, whole samples of every pixel, so that what follows goes on from there.
         const std::atomic<bool> never{false};

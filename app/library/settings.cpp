@@ -67,11 +67,15 @@ Backend backend_from(const std::string& name) {
             return static_cast<Backend>(i);
         }
     }
-    throw Error("no backend '" + name + "'" + core::did_you_mean(name, names) + "; there are cpu, vulkan and oracle");
+    throw SettingError("no backend '" + name + "'" + core::did_you_mean(name, names) + "; there are only cpu, vulkan, oracle");
 }
 
 Integrator integrator_from(const std::string& name) {
-    return guarded([&] { return static_cast<Integrator>(core::integrator_from_name(name)); });
+    try {
+        return static_cast<Integrator>(core::integrator_from_name(name));
+    } catch (const core::Error& error) {
+        throw SettingError(error.what());
+    }
 }
 
 std::vector<std::string> devices() {

@@ -165,14 +165,17 @@ void check(const Camera& camera) {
 void check(const Settings& s, std::size_t cameras) {
     constexpr int largest_side = 65536;
     for (const int side : s.size) {
-        require(side >= 1 && side <= largest_side, "settings", "size", side, "between 1 and 65536 pixels a side");
+        if (side < 1 || side > largest_side) {
+            throw SettingError(fmt::format("settings: size is {}; a side has to be 1 to {} pixels", side, largest_side));
+        }
     }
-    require(s.camera >= 0 && static_cast<std::size_t>(s.camera) < cameras, "settings", "camera", s.camera,
-            fmt::format("an index below the number of cameras, {}", cameras).c_str());
+    if (s.camera < 0 || static_cast<std::size_t>(s.camera) >= cameras) {
+        throw SettingError(fmt::format("settings: camera is {}; the scene has {}, counted from 0", s.camera, cameras));
+    }
     namespace ranges = core::ranges;
     const auto in_range = [](const core::SettingRange& range, double value, const char* field) {
         if (!range.accepted.holds(value)) {
-            throw Error(fmt::format("settings: {} is {:g}; it has to lie between {:g} and {:g}", field, value,
+            throw SettingError(fmt::format("settings: {} is {:g}; it has to lie between {:g} and {:g}", field, value,
                                     range.accepted.least, range.accepted.most));
         }
     };
@@ -184,6 +187,19 @@ void check(const Settings& s, std::size_t cameras) {
     in_range(ranges::neighbors, r.neighbors, "resampling.neighbors");
     in_range(ranges::reuse_radius, static_cast<double>(r.radius), "resampling.radius");
     in_range(ranges::confidence_cap, static_cast<double>(r.confidence_cap), "resampling.confidence_cap");
+}
+
+void check(const BackendChoice& choice) {
+    const bool vulkan = choice.backend == Backend::vulkan;
+    if (!vulkan && (!choice.device.empty() || choice.validation)) {
+        throw SettingError("backend " + name_of(choice.backend) + ": device and validation are vulkan's");
+    }
+    if (vulkan && choice.threads != 0) {
+        throw SettingError("backend vulkan: threads are those of cpu and oracle");
+    }
+    if (choice.threads < 0) {
+        throw SettingError(fmt::format("backend: threads is {}; 0 is one a core", choice.threads));
+    }
 }
 
 DIPTYCH_END

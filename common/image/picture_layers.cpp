@@ -22,16 +22,18 @@ struct Layer {
 std::string joined(const std::vector<std::string>& names) {
     constexpr size_t most = 12;
     std::string text;
-    for (size_t i = 0; i < std::min(names.size(), most); ++i)
+    for (size_t i = 0; i < std::min(names.size(), most); ++i) {
         text += (i > 0 ? ", " : "") + names[i];
+    }
     return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
 }
 
 int channel(const Layer& layer, std::initializer_list<const char*> names) {
     for (const char* name : names) {
         const auto found = std::find(layer.components.begin(), layer.components.end(), name);
-        if (found != layer.components.end())
+        if (found != layer.components.end()) {
             return layer.channels[static_cast<size_t>(found - layer.components.begin())];
+        }
     }
     return -1;
 }
@@ -44,25 +46,27 @@ void judge(const PicturePart& part, Layer& layer) {
     const int r = channel(layer, {"R", "r", "red", "Red"}), g = channel(layer, {"G", "g", "green", "Green"}),
               b = channel(layer, {"B", "b", "blue", "Blue"});
     const int x = channel(layer, {"X"}), y = channel(layer, {"Y"}), z = channel(layer, {"Z"});
-    if (part.deep)
+    if (part.deep) {
         layer.problem = "deep data, with any number of samples a pixel, is not a picture";
-    else if (r >= 0 && g >= 0 && b >= 0)
+    } else if (r >= 0 && g >= 0 && b >= 0) {
         take(Kind::Rgb, {r, g, b});
-    else if (channel(layer, {"RY"}) >= 0 || channel(layer, {"BY"}) >= 0)
+    } else if (channel(layer, {"RY"}) >= 0 || channel(layer, {"BY"}) >= 0) {
         layer.problem = "luminance with chroma (Y, RY, BY) is not supported: store R, G, B";
-    else if (y >= 0 && x < 0 && z < 0)
+    } else if (y >= 0 && x < 0 && z < 0) {
         take(Kind::Grey, {y});
-    else if (x >= 0 && y >= 0 && z >= 0 && part.chromaticities && primaries_are_xyz(*part.chromaticities))
+    } else if (x >= 0 && y >= 0 && z >= 0 && part.chromaticities && primaries_are_xyz(*part.chromaticities)) {
         take(Kind::Xyz, {x, y, z});
-    else if (x >= 0 && y >= 0 && z >= 0)
+    } else if (x >= 0 && y >= 0 && z >= 0) {
         layer.problem = "channels X, Y, Z may be positions: no chromaticities say that they are CIE XYZ";
-    else
+    } else {
         layer.problem = "it holds " + joined(layer.components) + ", neither R, G, B nor Y";
+    }
 }
 
 std::string layer_name(const std::string& part, const std::string& prefix) {
-    if (part.empty() || prefix == part || prefix.compare(0, part.size() + 1, part + ".") == 0)
+    if (part.empty() || prefix == part || prefix.compare(0, part.size() + 1, part + ".") == 0) {
         return prefix;
+    }
     return prefix.empty() ? part : part + "." + prefix;
 }
 
@@ -83,26 +87,31 @@ std::vector<Layer> layers_of(const std::vector<PicturePart>& parts) {
             layer->components.push_back(dot == std::string::npos ? name : name.substr(dot + 1));
             layer->channels.push_back(static_cast<int>(i));
         }
-        for (size_t i = first; i < layers.size(); ++i)
+        for (size_t i = first; i < layers.size(); ++i) {
             judge(parts[part], layers[i]);
+        }
     }
     return layers;
 }
 
 std::vector<std::string> names_of_pictures(const std::vector<Layer>& layers) {
     std::vector<std::string> names;
-    for (const Layer& layer : layers)
-        if (layer.kind != Kind::None && !layer.name.empty())
+    for (const Layer& layer : layers) {
+        if (layer.kind != Kind::None && !layer.name.empty()) {
             names.push_back(layer.name);
+        }
+    }
     return names;
 }
 
 [[noreturn]] void fail_without_picture(const std::vector<Layer>& layers) {
-    if (layers.size() == 1)
+    if (layers.size() == 1) {
         throw std::runtime_error(layers[0].problem);
+    }
     std::vector<std::string> names;
-    for (const Layer& layer : layers)
+    for (const Layer& layer : layers) {
         names.push_back((layer.name.empty() ? "" : "'" + layer.name + "': ") + layer.problem);
+    }
     throw std::runtime_error("none of its layers is a picture (" + joined(names) + ")");
 }
 
@@ -118,8 +127,9 @@ ChosenPicture choose_by_name(const std::vector<Layer>& layers, const std::string
         throw std::runtime_error("it has no layer '" + name + "'" +
                                  (names.empty() ? "" : "; its pictures are " + joined(names)));
     }
-    if (found->kind == Kind::None)
+    if (found->kind == Kind::None) {
         throw std::runtime_error("layer '" + name + "': " + found->problem);
+    }
     return chosen(*found, false);
 }
 
@@ -127,26 +137,32 @@ ChosenPicture choose_by_name(const std::vector<Layer>& layers, const std::string
 
 ChosenPicture choose_picture(const std::vector<PicturePart>& parts, const std::string& layer) {
     const std::vector<Layer> layers = layers_of(parts);
-    if (!layer.empty())
+    if (!layer.empty()) {
         return choose_by_name(layers, layer);
+    }
     const auto matching = [&](auto&& wanted) {
         std::vector<const Layer*> found;
-        for (const Layer& candidate : layers)
-            if (candidate.kind != Kind::None && wanted(candidate))
+        for (const Layer& candidate : layers) {
+            if (candidate.kind != Kind::None && wanted(candidate)) {
                 found.push_back(&candidate);
+            }
+        }
         return found;
     };
-    std::vector<const Layer*> found =
-        matching([](const Layer& l) { return l.prefix.empty() && l.kind == Kind::Rgb; });
-    if (found.empty())
+    std::vector<const Layer*> found = matching([](const Layer& l) { return l.prefix.empty() && l.kind == Kind::Rgb; });
+    if (found.empty()) {
         found = matching([](const Layer& l) { return l.prefix.empty(); });
-    if (found.empty())
+    }
+    if (found.empty()) {
         found = matching([](const Layer&) { return true; });
-    if (found.empty())
+    }
+    if (found.empty()) {
         fail_without_picture(layers);
-    if (found.size() > 1)
+    }
+    if (found.size() > 1) {
         throw std::runtime_error("several of its layers may be the picture: name one as FILE:LAYER (" +
                                  joined(names_of_pictures(layers)) + ")");
+    }
     const bool plain_of_one_part = found[0]->prefix.empty() && parts.size() == 1;
     return chosen(*found[0], layers.size() > 1 && !plain_of_one_part);
 }

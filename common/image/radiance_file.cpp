@@ -27,14 +27,16 @@ public:
     size_t left() const { return bytes_.size() - at_; }
     std::uint8_t peek(size_t ahead) const { return static_cast<std::uint8_t>(bytes_[at_ + ahead]); }
     std::uint8_t next() {
-        if (at_ == bytes_.size())
+        if (at_ == bytes_.size()) {
             throw std::runtime_error("the file ends early");
+        }
         return static_cast<std::uint8_t>(bytes_[at_++]);
     }
     Rgbe next_pixel() {
         Rgbe pixel;
-        for (std::uint8_t& byte : pixel)
+        for (std::uint8_t& byte : pixel) {
             byte = next();
+        }
         return pixel;
     }
 
@@ -55,10 +57,12 @@ void read_old_scanline(Bytes& bytes, std::vector<Rgbe>& line) {
             continue;
         }
         const size_t count = shift < 32 ? static_cast<size_t>(pixel[3]) << shift : 0;
-        if (x == 0 || count > line.size() - x)
+        if (x == 0 || count > line.size() - x) {
             throw std::runtime_error("a run of pixels does not fit");
-        for (const size_t end = x + count; x < end; ++x)
+        }
+        for (const size_t end = x + count; x < end; ++x) {
             line[x] = line[x - 1];
+        }
         shift += 8;
     }
 }
@@ -71,11 +75,13 @@ void read_new_scanline(Bytes& bytes, std::vector<Rgbe>& line) {
             const size_t code = bytes.next();
             const bool run = code > 128;
             const size_t count = run ? code - 128 : code;
-            if (count == 0 || count > line.size() - x)
+            if (count == 0 || count > line.size() - x) {
                 throw std::runtime_error("a run of bytes does not fit");
+            }
             const std::uint8_t repeated = run ? bytes.next() : 0;
-            for (const size_t end = x + count; x < end; ++x)
+            for (const size_t end = x + count; x < end; ++x) {
                 line[x][component] = run ? repeated : bytes.next();
+            }
         }
     }
 }
@@ -83,10 +89,12 @@ void read_new_scanline(Bytes& bytes, std::vector<Rgbe>& line) {
 void read_scanline(Bytes& bytes, std::vector<Rgbe>& line) {
     const bool may_be_new = line.size() >= least_new_rle && line.size() <= most_new_rle && bytes.left() >= 4 &&
                             bytes.peek(0) == 2 && bytes.peek(1) == 2 && bytes.peek(2) < 128;
-    if (!may_be_new)
+    if (!may_be_new) {
         return read_old_scanline(bytes, line);
-    if (static_cast<size_t>(bytes.peek(2) << 8 | bytes.peek(3)) != line.size())
+    }
+    if (static_cast<size_t>(bytes.peek(2) << 8 | bytes.peek(3)) != line.size()) {
         throw std::runtime_error("its length is not that of the resolution line");
+    }
     read_new_scanline(bytes, line);
 }
 
@@ -104,9 +112,10 @@ Image read_pixels(Bytes bytes, const RadianceHeader& header) {
             const int along = header.pixels.place(j), across = header.scanlines.place(i);
             const int x = header.scanlines.vertical ? along : across, y = header.scanlines.vertical ? across : along;
             const Rgbe& pixel = line[static_cast<size_t>(j)];
-            for (int c = 0; c < 3 && pixel[3] != 0; ++c)
+            for (int c = 0; c < 3 && pixel[3] != 0; ++c) {
                 image.at(x, y, c) = static_cast<float>(std::ldexp(pixel[static_cast<size_t>(c)], pixel[3] - 136) /
                                                        header.multiplied[c]);
+            }
         }
     }
     return image;
@@ -115,12 +124,15 @@ Image read_pixels(Bytes bytes, const RadianceHeader& header) {
 /// A scanline of several pixels takes at least a pixel and a run of it.
 void check_size(const RadianceHeader& header, size_t bytes_of_pixels, size_t bytes_of_file) {
     const size_t least = static_cast<size_t>(header.scanlines.size) * (header.pixels.size == 1 ? 4 : 8);
-    if (bytes_of_pixels < least)
+    if (bytes_of_pixels < least) {
         throw std::runtime_error(std::to_string(header.width()) + "x" + std::to_string(header.height()) +
-                                 " pixels take at least " + std::to_string(least) + " bytes, and the header is followed by " +
-                                 std::to_string(bytes_of_pixels));
-    if (const std::string reason = size_claim_problem(header.width(), header.height(), 3, bytes_of_file); !reason.empty())
+                                 " pixels take at least " + std::to_string(least) +
+                                 " bytes, and the header is followed by " + std::to_string(bytes_of_pixels));
+    }
+    if (const std::string reason = size_claim_problem(header.width(), header.height(), 3, bytes_of_file);
+        !reason.empty()) {
         throw std::runtime_error(reason);
+    }
 }
 
 }  // namespace
@@ -135,10 +147,11 @@ Image read_radiance(const std::filesystem::path& path) {
     const RadianceHeader header = read_radiance_header(bytes);
     check_size(header, bytes.size() - header.size, bytes.size());
     Image image = read_pixels(Bytes(std::string_view(bytes).substr(header.size)), header);
-    if (header.xyz)
+    if (header.xyz) {
         convert_color(image, xyz_to_rec709());
-    else if (header.primaries && !same_chromaticities(*header.primaries, rec709))
+    } else if (header.primaries && !same_chromaticities(*header.primaries, rec709)) {
         convert_color(image, to_rec709(*header.primaries));
+    }
     return image;
 }
 

@@ -17,6 +17,13 @@ public:
     ~Error() override;
 };
 
+/// A setting out of range, or one that does not fit the others. `what()` names it.
+class DIPTYCH_EXPORT SettingError : public Error {
+public:
+    using Error::Error;
+    ~SettingError() override;
+};
+
 /// The machine has no device that the backend needs. `what()` lists what is missing.
 class DIPTYCH_EXPORT NoDevice : public Error {
 public:

@@ -135,5 +135,18 @@ TEST_CASE("Names that a scene lacks, files that are not there and settings out o
     CHECK_THAT(refusal([](dp::Settings& s) { s.max_depth = 70000; }), Catch::Contains("max_depth is 70000"));
     CHECK_THAT(refusal([](dp::Settings& s) { s.resampling.neighbors = 9; }),
                Catch::Contains("resampling.neighbors is 9"));
+    const auto refused = [&](const dp::BackendChoice& choice) {
+        return message_of([&] { dp::Session(scene, choice, small_settings()); });
+    };
+    dp::BackendChoice choice;
+    choice.device = "0";
+    CHECK(refused(choice) == "backend cpu: device and validation are vulkan's");
+    choice = {};
+    choice.threads = -1;
+    CHECK(refused(choice) == "backend: threads is -1; 0 is one a core");
+    choice.backend = dp::Backend::vulkan;
+    CHECK(refused(choice) == "backend vulkan: threads are those of cpu and oracle");
+    CHECK_THROWS_AS(dp::Session(scene).render(0), dp::SettingError);
+    CHECK_THROWS_AS(dp::backend_from("vulcan"), dp::SettingError);
     CHECK_THAT(message_of([] { dp::look_at({1, 1, 1}, {1, 1, 1}); }), !Catch::Contains("--"));
 }

@@ -10,7 +10,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-TOPS = ["include", "shared_glsl_cpp", "common", "cpu_ref", "vk_backend", "shaders", "stability", "app"]
+TOPS = ["include", "python", "shared_glsl_cpp", "common", "cpu_ref", "vk_backend", "shaders", "stability", "app"]
 SOURCES = {".h", ".cpp", ".glsl", ".comp", ".rgen", ".rchit", ".rahit", ".rmiss", ".vert", ".frag"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<(CLI)/)', re.MULTILINE)
 
