@@ -63,7 +63,7 @@ public:
     /// The device's own name.
     virtual std::string device() const = 0;
     virtual RendererCosts costs() const = 0;
-    virtual Capabilities capabilities() const { return {}; }
+    virtual Capabilities capabilities() const = 0;
 
     /// Adds samples first .. first+count-1 to every pixel. Stops early, between slices of at most about 200 ms, once
     /// `cancel` is set; the film is valid then too, since every pixel counts its own samples.

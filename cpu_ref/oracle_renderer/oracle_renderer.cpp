@@ -77,6 +77,7 @@ public:
 
     std::string backend() const override { return "oracle"; }
     std::string device() const override { return fmt::format("double precision on {} CPU threads", threads_); }
+    Capabilities capabilities() const override { return {}; }
     RendererCosts costs() const override { return costs_; }
 
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {

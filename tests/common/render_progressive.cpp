@@ -22,6 +22,7 @@ public:
 
     std::string backend() const override { return "fake"; }
     std::string device() const override { return "none"; }
+    Capabilities capabilities() const override { return {}; }
     RendererCosts costs() const override { return {}; }
     double device_seconds() const override { return clock; }
     TraversalBench bench_traversal(std::uint32_t) override { return {}; }

@@ -46,6 +46,7 @@ public:
     }
     std::string backend() const override { return inner_->backend(); }
     std::string device() const override { return inner_->device(); }
+    Capabilities capabilities() const override { return inner_->capabilities(); }
     RendererCosts costs() const override { return inner_->costs(); }
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
         inner_->render(first, count, cancel);

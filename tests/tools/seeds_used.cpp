@@ -64,6 +64,7 @@ public:
     }
     std::string backend() const override { return renderer_->backend(); }
     std::string device() const override { return renderer_->device(); }
+    Capabilities capabilities() const override { return {true, true, false, false}; }
     RendererCosts costs() const override { return renderer_->costs(); }
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
         log_.draw(stream_, count);

@@ -98,6 +98,7 @@ public:
 
     std::string backend() const override { return "fake"; }
     std::string device() const override { return "none"; }
+    Capabilities capabilities() const override { return {true, true, false, true}; }
     RendererCosts costs() const override { return {}; }
 
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
