@@ -72,6 +72,7 @@ struct SessionData {
     core::RenderSettings core_settings() const;
     core::RenderRequest request() const;
     void open();
+    core::Session& running();  // opened again where opening it failed before
     void begin_picture();
     void follow_edits();
     void go_to(const core::Moment& next, const Settings& wanted);

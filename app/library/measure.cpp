@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <mutex>
+
 #include "backends/backends.h"
 #include "image/image_file.h"
 #include "image/layered_image.h"
@@ -82,11 +84,13 @@ Verdict verify(const Scene& scene, const VerifyOptions& options) {
         request.settings.standard_error = false;
         request.settings.first_hit_layers = false;
         const StopFlag stop(options.stop);
+        std::mutex mutex;  // sides on different backends render at the same time
         std::uint32_t begun = 0;
         const std::optional<core::SuiteResult> suite = core::run_suite(
             settings, {*content, request, open_session}, {{to_core(options.a), to_core(options.b), {}}},
             options.settings.seed, stop.flag(), [&](const core::SideName&, std::uint32_t) {
                 if (options.progress) {
+                    const std::lock_guard lock(mutex);
                     options.progress(begun++, 2 * options.runs);
                 }
             });

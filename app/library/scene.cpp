@@ -218,7 +218,10 @@ std::size_t Scene::mesh_count() const {
 std::size_t Scene::triangle_count() const {
     std::size_t count = 0;
     for (const Instance& instance : data_->tables.instances) {
-        for (const core::Primitive& primitive : data_->content->meshes.at(static_cast<std::size_t>(instance.mesh)).primitives) {
+        if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= mesh_count()) {
+            continue;  // refused at the next render
+        }
+        for (const core::Primitive& primitive : data_->content->meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
             count += primitive.triangles.size();
         }
     }

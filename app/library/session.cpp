@@ -44,6 +44,13 @@ core::RenderRequest SessionData::request() const {
     return out;
 }
 
+core::Session& SessionData::running() {
+    if (!session) {
+        open();
+    }
+    return *session;
+}
+
 void SessionData::begin_picture() {
     ranges.clear();
     seconds = 0;
@@ -67,11 +74,12 @@ void SessionData::open() {
 void SessionData::follow_edits() {
     std::shared_ptr<const core::Scene> edited = scene->snapshot();
     if (edited == content) {
+        running();
         return;
     }
     check(settings, edited->cameras.size());
     const bool in_place =
-        session->renderer().capabilities().reconfigures && core::editable_in_place(*content, *edited);
+        session && session->renderer().capabilities().reconfigures && core::editable_in_place(*content, *edited);
     revision = scene->revision;
     std::swap(content, edited);  // the old one lives until the session has let go of it
     if (in_place) {
@@ -87,7 +95,7 @@ void SessionData::go_to(const core::Moment& next, const Settings& wanted) {
     const Settings settings_before = std::exchange(settings, wanted);
     try {
         const core::RenderSettings asked = core_settings();
-        const core::Change change = session->change_to(moment, asked);
+        const core::Change change = running().change_to(moment, asked);
         if (change < core::Change::settings) {
             session->show(moment);
         } else if (session->renderer().capabilities().reconfigures) {
@@ -98,7 +106,7 @@ void SessionData::go_to(const core::Moment& next, const Settings& wanted) {
     } catch (...) {
         moment = moment_before;
         settings = settings_before;
-        open();  // a session of which a call has thrown is of no use
+        session.reset();  // it is of no use once a call has thrown
         throw;
     }
     begin_picture();
@@ -124,7 +132,7 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
 
-RenderResult Session::render(std::uint32_t first, std::uint32_t count, const RenderOptions& options) {
+RenderResult Session::render_range(std::uint32_t first, std::uint32_t count, const RenderOptions& options) {
     return guarded([&] {
         SessionData& d = *data_;
         d.follow_edits();
@@ -177,14 +185,14 @@ RenderResult Session::render(std::uint32_t first, std::uint32_t count, const Ren
 
 RenderResult Session::render(std::uint32_t count, const RenderOptions& options) {
     guarded([&] { data_->follow_edits(); });
-    return render(data_->done(), count, options);
+    return render_range(data_->done(), count, options);
 }
 
 Film Session::film() const {
     return guarded([&] {
         const SessionData& d = *data_;
         auto film = std::make_shared<FilmData>();
-        film->film = d.session->film();
+        film->film = data_->running().film();
         const core::FilmTotals totals = core::film_totals(film->film);
         film->request = d.request();
         film->ranges = d.ranges;
@@ -211,14 +219,14 @@ void Session::restart(std::optional<std::uint32_t> seed) {
     guarded([&] {
         SessionData& d = *data_;
         d.settings.seed = seed.value_or(d.settings.seed);
-        d.session->restart(d.settings.seed);
+        d.running().restart(d.settings.seed);
         d.begin_picture();
     });
 }
 
-void Session::pose(double seconds) {
+void Session::pose(std::optional<double> seconds) {
     guarded([&] {
-        if (!std::isfinite(seconds)) {
+        if (seconds && !std::isfinite(*seconds)) {
             throw Error("session: a moment has to be a finite number of seconds");
         }
         data_->follow_edits();
@@ -228,12 +236,17 @@ void Session::pose(double seconds) {
     });
 }
 
-void Session::set_camera(const Camera& camera) {
+void Session::set_camera(const std::optional<Camera>& camera) {
     guarded([&] {
-        check(camera);
+        if (camera) {
+            check(*camera);
+        }
         data_->follow_edits();
         core::Moment next = data_->moment;
-        next.camera = to_core(camera);
+        next.camera.reset();
+        if (camera) {
+            next.camera = to_core(*camera);
+        }
         data_->go_to(next, data_->settings);
     });
 }
@@ -255,11 +268,11 @@ Backend Session::backend() const {
 }
 
 std::string Session::device() const {
-    return data_->session->renderer().device();
+    return guarded([&] { return data_->running().renderer().device(); });
 }
 
 Capabilities Session::capabilities() const {
-    const core::Capabilities c = data_->session->renderer().capabilities();
+    const core::Capabilities c = guarded([&] { return data_->running().renderer().capabilities(); });
     return {c.chains, c.reconfigures, c.paths};
 }
 

@@ -9,7 +9,8 @@
 DIPTYCH_BEGIN
 
 /// Bad input, a setting out of range, or a file that cannot be read or written. `what()` is one line that names the
-/// file, the object in it and the reason. Whatever threw it has changed nothing, or says what it left.
+/// file, the object in it and the reason. A call that throws has
+/// no effect, except that a session may have begun its picture anew.
 class DIPTYCH_EXPORT Error : public std::runtime_error {
 public:
     explicit Error(const std::string& message);

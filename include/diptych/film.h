@@ -30,7 +30,7 @@ struct Impl;
 struct FilmData;
 
 /// A value: sums, second moments and first hits of all pixels, and what they develop to. Copies share memory. Arrays
-/// are row-major, row 0 on top; a span lives as long as the film or a copy of it.
+/// are row-major, row 0 on top. A span is valid until the film is merged into, assigned or destroyed, or as long as a copy.
 class DIPTYCH_EXPORT Film {
 public:
     int width() const;
@@ -56,8 +56,9 @@ public:
     /// An estimate of relMSE, mean of variance / (radiance² + 0.01), from the standard errors; NaN without them.
     double relmse_estimate() const;
 
-    /// Adds the other film's samples, as if this one had taken them too. Throws Error, and changes nothing, where the
-    /// two differ in scene, size or settings other than the seed, or have samples in common.
+    /// Adds the other film's samples, as if this one had taken them too; the backends may differ. Throws Error, and
+    /// changes nothing, where the two differ in scene, edits, moment, view, layers or settings other than the seed, or have
+    /// samples in common.
     void merge(const Film& other);
 
     /// Writes .exr (all layers, float32), .hdr, or .png (tone-mapped). The file appears whole or not at all. Throws
@@ -70,7 +71,7 @@ private:
     std::shared_ptr<const FilmData> data_;
 };
 
-/// Width * height * 3 display values in [0, 1], as save writes them to a .png.
+/// Width * height * 3 display values in [0, 1], as save writes them to a .png at exposure 0. `exposure` in stops.
 DIPTYCH_EXPORT std::vector<float> tone_mapped(const Film& film, double exposure = 0);
 
 DIPTYCH_END

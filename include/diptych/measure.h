@@ -36,7 +36,7 @@ struct VerifyOptions {
     std::string device;        // vulkan
     int threads = 0;
     std::stop_token stop;
-    std::function<void(std::uint32_t run, std::uint32_t runs)> progress;  // before each run of either side
+    std::function<void(std::uint32_t run, std::uint32_t runs)> progress;  // before each run, from any thread, one at a time
 };
 
 enum class VerdictKind { pass, fail, inconclusive };
@@ -51,7 +51,7 @@ struct Verdict {
     double min_detectable_percent = 0;        // bias of the image mean that would be found with 90 % power
     int tiles_x = 0;
     int tiles_y = 0;
-    std::vector<double> p_values;             // tiles_y * tiles_x, row-major from the top; NaN where both are black
+    std::vector<double> p_values;             // tiles_y * tiles_x, row-major; NaN where nothing varies and the sides agree, 0 where such sides differ
 };
 
 /// Renders both sides and tests whether they converge to the same image. Throws Interrupted where stopped, NoDevice and
@@ -62,7 +62,7 @@ DIPTYCH_EXPORT Verdict verify(const Scene& scene, const VerifyOptions& options);
 struct Comparison {
     double mse = std::numeric_limits<double>::quiet_NaN();     // mean (a-b)²
     double relmse = std::numeric_limits<double>::quiet_NaN();  // mean (a-b)² / (b² + 0.01)
-    std::array<double, 3> mean_ratio{};                        // mean(a) / mean(b), a channel
+    std::array<double, 3> mean_ratio{};  // mean(a) / mean(b), a channel
     std::array<double, 3> z{};     // difference of the means over its standard error; needs independent pictures
     double fraction_equal = 0;     // pixels that agree to 0.1 %
     std::size_t nonfinite = 0;     // pixels left out

@@ -1,7 +1,7 @@
 // The scene: what is rendered.
 //
 // Conventions are glTF 2.0's: right-handed, metres, +Y up. A camera and a light look along their local -Z. Angles are
-// radians. Colours are linear Rec.709. Texture coordinates start at the upper left corner of an image.
+// radians, but those of Sun are degrees. Colours are linear Rec.709. Texture coordinates start at the upper left corner of an image.
 #pragma once
 
 #include <array>
@@ -148,20 +148,22 @@ struct Impl;
 struct SceneData;
 
 /// A handle: copies of it are the same scene, which lives as long as the last of them, or of the sessions that render
-/// it. What its references give may be edited at any time between renders; a session sees edits at its next render. Not
-/// to be edited by two threads at once.
+/// it. What its references give may be edited at any time between calls of sessions; a session sees edits at its next
+/// render, pose, change of camera or settings, or replay, and throws there what is out of range. Materials may not be
+/// removed, nor lights of a scene with animations: other parts refer to them by index. Not to be edited by two threads at
+/// once.
 class DIPTYCH_EXPORT Scene {
 public:
     /// Empty, and black.
     Scene();
 
     std::vector<Material>& materials();
-    std::vector<Camera>& cameras();  // a scene without one is seen by a camera that frames it
+    std::vector<Camera>& cameras();  // where there is none, a session adds one that frames the scene as it is then
     std::vector<Light>& lights();
     std::vector<Instance>& instances();
     Environment& environment();
 
-    /// The first of that name. Throws Error with the names that there are.
+    /// The first of that name; valid until the table grows. Throws Error with the names that there are.
     Material& material(std::string_view name);
     Camera& camera(std::string_view name);
     Light& light(std::string_view name);
@@ -182,7 +184,7 @@ public:
     std::size_t mesh_count() const;
     std::size_t triangle_count() const;          // over all instances
     std::vector<std::string> animations() const; // names, in the file's order
-    double duration() const;                     // seconds to the last key of any animation
+    double duration() const;                     // seconds to the last key of the animations that play
 
     /// A scene of its own with the same content.
     Scene copy() const;
@@ -197,7 +199,7 @@ struct LoadOptions {
     bool strict = false;                         // whatever would be a warning throws
     bool allow_external = false;                 // read what the file names outside its folder too
     std::string animation;                       // name or index of the one that plays; empty: all of them
-    bool complete = true;                        // add a camera and a neutral sky where the scene has neither
+    bool complete = true;                        // add a camera where there is none, a neutral sky where it would be black
     std::function<void(const std::string& line)> warnings;
 };
 

@@ -35,7 +35,7 @@ struct RenderOptions {
     std::function<void(const Progress&)> progress;  // about every quarter of a second, from the thread that renders
     std::stop_token stop;                           // may be set from any thread
     double seconds = 0;                             // stop after so long; 0 is no limit
-    double relmse = 0;                              // stop at this estimate; needs standard_error; 0 is no limit
+    double relmse = 0;                              // stop at this estimate, from 16 samples on; 0 is no limit
 };
 
 struct RenderResult {
@@ -51,23 +51,28 @@ struct SessionOptions {
 // The implementation's.
 struct SessionData;
 
-/// Used by one thread at a time, and may be moved between threads. Several sessions run at once. A session that threw
-/// DeviceLost can only be destroyed; all else leaves it usable.
+/// Used by one thread at a time, and may be moved between threads. Several sessions run at once. After DeviceLost a
+/// session can only be destroyed, and after a move only be assigned or destroyed. Other errors leave it usable; where the
+/// call had begun to change the picture, the film is empty.
 class DIPTYCH_EXPORT Session {
 public:
-    /// Builds acceleration structures and pipelines. Throws NoDevice and Error.
+    /// Builds acceleration structures and pipelines. Throws NoDevice; SettingError for settings out of range or options
+    /// of another backend; Error where the scene cannot be rendered.
     Session(const Scene& scene, const BackendChoice& backend = {}, const Settings& settings = {},
             const SessionOptions& options = {});
     Session(Session&&) noexcept;
     Session& operator=(Session&&) noexcept;
     ~Session();
 
-    /// Adds samples first .. first+count-1 to every pixel: consecutive calls have the bits of one. The film so far
-    /// stays whole whatever happens. Throws Error where samples were rendered before, and DeviceLost.
-    RenderResult render(std::uint32_t first, std::uint32_t count, const RenderOptions& options = {});
-
-    /// The next `count` samples; 0 is no limit, where the options set one.
+    /// Adds the next `count` samples to every pixel: consecutive calls have the bits of one. 0 is no limit, where the
+    /// options set one. Edits of the scene since the last call begin another picture first. The film so far stays whole
+    /// whatever happens. Throws SettingError where nothing limits the render or the settings keep no standard errors for
+    /// `relmse`; Error where an edit is out of range; DeviceLost.
     RenderResult render(std::uint32_t count, const RenderOptions& options = {});
+
+    /// The same with samples first .. first+count-1, for films that are merged later. Throws Error where the film has
+    /// samples from `first` on.
+    RenderResult render_range(std::uint32_t first, std::uint32_t count, const RenderOptions& options = {});
 
     /// A copy of what has been rendered.
     Film film() const;
@@ -75,13 +80,14 @@ public:
     /// Empties the film, with another seed where one is given. What follows has the bits of a new session.
     void restart(std::optional<std::uint32_t> seed = {});
 
-    /// Puts the scene at a moment of its animations, in seconds, and begins another picture. Only what moves is
-    /// updated. restir goes on from the picture before.
-    void pose(double seconds);
+    /// Puts the scene at a moment of its animations, in seconds, or back at rest, and begins another picture. Only what
+    /// moves is updated. restir goes on from the picture before. Throws Error where the number is not finite.
+    void pose(std::optional<double> seconds);
 
-    /// What the scene is seen through from now on; begins another picture.
-    void set_camera(const Camera& camera);
-    /// Begins another picture under other settings. What they do not touch stays.
+    /// What the scene is seen through from now on, whatever Settings::camera says; none gives that one back. Begins
+    /// another picture. Throws Error where the camera is out of range.
+    void set_camera(const std::optional<Camera>& camera);
+    /// Begins another picture under other settings. What they do not touch stays. Throws SettingError.
     void set_settings(const Settings& settings);
 
     const Settings& settings() const;

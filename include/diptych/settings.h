@@ -21,6 +21,7 @@ enum class MisHeuristic { power, balance };
 enum class ResamplingMis { pairwise, balance, one_over_z, biased_one_over_m };
 enum class ResamplingVisibility { shading, target, biased_initial, biased_final };
 
+/// A session refuses options of another backend.
 struct BackendChoice {
     Backend backend = Backend::cpu;
     std::string device;       // vulkan: an index or a part of the name; empty is the best
@@ -28,7 +29,7 @@ struct BackendChoice {
     bool validation = false;  // vulkan: the validation layers
 };
 
-/// Of `ris` and `restir`; docs/restir.md defines each.
+/// Of `ris` and `restir`; docs/restir.md defines each. The ranges are those that `diptych render --help` lists.
 struct ResamplingSettings {
     std::uint32_t light_candidates = 8;
     float near_share = 0.5F;  // 0 to 1
@@ -37,7 +38,7 @@ struct ResamplingSettings {
     std::uint32_t spatial_passes = 1;
     std::uint32_t neighbors = 4;
     float radius = 16;  // pixels
-    float confidence_cap = 4;
+    float confidence_cap = 4;  // of the frame before, in frames
     ResamplingMis mis = ResamplingMis::pairwise;
     ResamplingVisibility visibility = ResamplingVisibility::shading;
 
@@ -46,8 +47,8 @@ struct ResamplingSettings {
 
 struct Settings {
     Integrator integrator = Integrator::path;
-    std::array<int, 2> size = {512, 512};  // width, height; pixels
-    std::uint32_t max_depth = 8;           // scattering events: 1 is emission and direct light
+    std::array<int, 2> size = {512, 512};  // width, height; 1 to 65536 pixels
+    std::uint32_t max_depth = 8;           // scattering events, 0 to 65535: 1 is emission and direct light
     std::uint32_t seed = 0;
     int camera = 0;                        // index into Scene::cameras
     SamplerKind sampler = SamplerKind::sobol;

@@ -79,7 +79,7 @@ public:
         Reporter reporter(progress);
         const RenderOptions options{std::ref(reporter), reporter.token(), seconds, relmse};
         const RenderResult result = work([&](Session& session) {
-            return first ? session.render(*first, count, options) : session.render(count, options);
+            return first ? session.render_range(*first, count, options) : session.render(count, options);
         });
         reporter.raise_if_any();
         if (PyErr_CheckSignals() != 0) {  // Ctrl-C after the last report

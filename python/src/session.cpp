@@ -70,16 +70,20 @@ void bind_session(py::module_& module) {
             py::arg("seed") = py::none(), "Empties the film, with another seed where one is given.")
         .def(
             "pose",
-            [](S& self, double seconds) { self.work([=](Session& session) { return session.pose(seconds), 0; }); },
+            [](S& self, std::optional<double> seconds) {
+                self.work([=](Session& session) { return session.pose(seconds), 0; });
+            },
             py::arg("seconds"),
-            "Puts the scene at a moment of its animations and begins another picture. Only what moves is updated, and\n"
-            "restir goes on from the picture before.")
+            "Puts the scene at a moment of its animations, or back at rest (None), and begins another picture. Only\n"
+            "what moves is updated, and restir goes on from the picture before.")
         .def(
             "set_camera",
-            [](S& self, const Element<Camera>& camera) {
-                self.work([value = Camera(camera.get())](Session& session) { return session.set_camera(value), 0; });
+            [](S& self, const Element<Camera>* camera) {
+                const std::optional<Camera> value = camera == nullptr ? std::nullopt : std::optional(camera->get());
+                self.work([value](Session& session) { return session.set_camera(value), 0; });
             },
-            py::arg("camera"), "What the scene is seen through from now on; begins another picture.")
+            py::arg("camera"),
+            "What the scene is seen through from now on; None is the camera of the settings. Begins another picture.")
         .def(
             "set_settings",
             [](S& self, const Settings& settings) {

@@ -43,13 +43,13 @@ TEST_CASE("A merged film has the sums, moments and first hits of all its samples
     const dp::Scene scene = small_scene();
     dp::Settings settings = small_settings();
     dp::Session session(scene, {}, settings);
-    session.render(0, 8);
+    session.render_range(0, 8);
     dp::Film first = session.film();
     session.restart();
-    session.render(8, 24);
+    session.render_range(8, 24);
     const dp::Film rest = session.film();
     session.restart();
-    session.render(0, 32);
+    session.render_range(0, 32);
     const dp::Film whole = session.film();
     first.merge(rest);
     CHECK(first.info().spp == 32);

@@ -1,5 +1,6 @@
 // Rendering by the public interface: pieces, stops, moments, views and threads.
 #include <chrono>
+#include <limits>
 #include <thread>
 
 #include "library/library_fixture.h"
@@ -49,8 +50,8 @@ TEST_CASE("Consecutive calls have the bits of one, and a stopped render goes on 
         for (const dp::Integrator integrator : {dp::Integrator::path, dp::Integrator::restir}) {
             const dp::Film whole = rendered(cornell(), backend, small_settings(integrator), 12);
             dp::Session session = open(cornell(), backend, small_settings(integrator));
-            session.render(0, 3);
-            session.render(3, 4);
+            session.render_range(0, 3);
+            session.render_range(3, 4);
             std::stop_source stop;
             dp::RenderOptions options;
             options.stop = stop.get_token();
@@ -59,7 +60,7 @@ TEST_CASE("Consecutive calls have the bits of one, and a stopped render goes on 
             CHECK(session.film().info().spp == 7 + stopped.spp);
             session.render(12 - session.film().info().spp);
             CHECK(same_bits(session.film(), whole));
-            CHECK_THROWS_WITH(session.render(3, 1), "session: sample 3 was rendered before; the next is 12");
+            CHECK_THROWS_WITH(session.render_range(3, 1), "session: sample 3 was rendered before; the next is 12");
             CHECK(same_bits(session.film(), whole));
         }
     }
@@ -76,7 +77,7 @@ TEST_CASE("A stop ends a long render, and the film stays even") {
         std::this_thread::sleep_for(std::chrono::milliseconds(300));
         stop.request_stop();
     });
-    const dp::RenderResult result = session.render(0, 100000000, options);
+    const dp::RenderResult result = session.render(100000000, options);
     other.join();
     CHECK(result.stopped);
     CHECK(result.spp > 0);
@@ -155,6 +156,36 @@ TEST_CASE("pose shows a moment, and an edit stays at it") {
         fresh.render(2);
         CHECK(same_bits(followed.film(), fresh.film()));
         CHECK_FALSE(same_bits(followed.film(), later));
+    }
+}
+
+TEST_CASE("A camera and a moment can be taken back") {
+    dp::Scene scene = dp::load(source_dir + "/scenes/moving-light.gltf");
+    const dp::Film expected = rendered(scene, dp::Backend::cpu, small_settings(), 2);
+    dp::Session session = open(scene, dp::Backend::cpu, small_settings());
+    session.pose(0.5 * scene.duration());
+    session.set_camera(dp::look_at({0.2, 1, 3}, {0, 1, 0}));
+    session.render(2);
+    CHECK_FALSE(same_bits(session.film(), expected));
+    session.set_camera({});
+    session.pose({});
+    session.render(2);
+    CHECK(same_bits(session.film(), expected));
+    CHECK_THROWS_AS(session.pose(std::numeric_limits<double>::infinity()), dp::Error);
+}
+
+TEST_CASE("A session whose scene could not be built goes on once the scene is mended") {
+    for (const dp::Backend backend : panels()) {
+        dp::Scene scene = small_scene();
+        dp::Session session = open(scene, backend, small_settings());
+        session.render(2);
+        const dp::Film expected = session.film();
+        scene.instance("wall").object_to_world[12] = 1e300;  // beyond single precision, which packing finds out
+        CHECK_THROWS_AS(session.render(2), dp::Error);
+        CHECK_THROWS_AS(session.render(2), dp::Error);
+        scene.instance("wall").object_to_world[12] = 0;
+        session.render(2);
+        CHECK(same_bits(session.film(), expected));
     }
 }
 

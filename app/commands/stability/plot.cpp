@@ -13,7 +13,7 @@ namespace diptych::core::app {
 namespace {
 
 /// Whole decades around the errors and the bound.
-chart::Range error_range(const MeasuredCase& m) {
+chart::Range error_range(const stability::MeasuredCase& m) {
     double low = m.which->bound > 0 ? m.which->bound / 10 : 1e-9;
     double high = std::max(m.which->bound, 1e-8);
     for (const stability::CaseResult& r : m.results) {
@@ -29,7 +29,7 @@ chart::Range error_range(const MeasuredCase& m) {
 
 }  // namespace
 
-std::string plot_case(const StabilityReport& report, const MeasuredCase& measured) {
+std::string plot_case(const stability::Report& report, const stability::MeasuredCase& measured) {
     const stability::Case& which = *measured.which;
     const auto& points = measured.results.front().points;
     const chart::Range errors = error_range(measured);

@@ -31,7 +31,7 @@ std::string where_text(const Case& c, const CaseResult& r) {
     return at + (at.empty() || r.where.empty() ? "" : "; ") + r.where;
 }
 
-bool passes(const MeasuredCase& m) {
+bool passes(const stability::MeasuredCase& m) {
     return std::all_of(m.results.begin(), m.results.end(), [](const CaseResult& r) { return r.passes; });
 }
 
@@ -58,9 +58,9 @@ std::string quoted(const std::string& text) {
     return field + '"';
 }
 
-std::string to_csv(const StabilityReport& report) {
+std::string to_csv(const stability::Report& report) {
     std::string csv = "row,case,backend,parameter,value,error,bound,nonfinite,evaluations,where\n";
-    for (const MeasuredCase& m : report.cases) {
+    for (const stability::MeasuredCase& m : report.cases) {
         for (std::size_t b = 0; b < m.results.size(); ++b) {
             for (const stability::PointResult& p : m.results[b].points) {
                 csv += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{},{},{}\n", quoted(m.which->row),
@@ -74,10 +74,6 @@ std::string to_csv(const StabilityReport& report) {
 }
 
 }  // namespace
-
-bool passes(const StabilityReport& report) {
-    return std::all_of(report.cases.begin(), report.cases.end(), [](const MeasuredCase& m) { return passes(m); });
-}
 
 void print_case_list(const std::vector<const Case*>& cases, bool json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -94,12 +90,12 @@ void print_case_list(const std::vector<const Case*>& cases, bool json) {
     }
 }
 
-void print_report(const StabilityReport& report) {
-    for (const MeasuredBackend& backend : report.backends) {
+void print_report(const stability::Report& report) {
+    for (const stability::MeasuredBackend& backend : report.backends) {
         fmt::print("{}: {}\n", backend.name, backend.device);
     }
     fmt::print("\n| row | case | range | error |");
-    for (const MeasuredBackend& backend : report.backends) {
+    for (const stability::MeasuredBackend& backend : report.backends) {
         fmt::print(" {} | not finite |", backend.name);
     }
     fmt::print(" bound | verdict | where |\n|---|---|---|---|");
@@ -108,7 +104,7 @@ void print_report(const StabilityReport& report) {
     }
     fmt::print("---|---|---|\n");
     std::size_t failed = 0;
-    for (const MeasuredCase& m : report.cases) {
+    for (const stability::MeasuredCase& m : report.cases) {
         const Case& c = *m.which;
         fmt::print("| {} | {} | {} | {} |", c.row, c.name, range_text(c, report.effort), c.measure);
         const CaseResult* worst = &m.results.front();
@@ -122,16 +118,16 @@ void print_report(const StabilityReport& report) {
     fmt::print("\n{} of {} cases hold their bounds\n", report.cases.size() - failed, report.cases.size());
 }
 
-nlohmann::ordered_json to_json(const StabilityReport& report) {
+nlohmann::ordered_json to_json(const stability::Report& report) {
     nlohmann::ordered_json json;
     json["program"] = program_version();
     json["effort"] = report.effort == stability::Effort::quick ? "quick" : "full";
-    for (const MeasuredBackend& backend : report.backends) {
+    for (const stability::MeasuredBackend& backend : report.backends) {
         json["backends"].push_back({{"name", backend.name}, {"device", backend.device}});
     }
     json["passes"] = passes(report);
     json["cases"] = nlohmann::ordered_json::array();
-    for (const MeasuredCase& m : report.cases) {
+    for (const stability::MeasuredCase& m : report.cases) {
         nlohmann::ordered_json entry = {{"row", m.which->row},         {"case", m.which->name},
                                         {"measure", m.which->measure}, {"parameter", m.which->range.parameter},
                                         {"bound", m.which->bound},     {"passes", passes(m)}};
@@ -157,7 +153,7 @@ nlohmann::ordered_json to_json(const StabilityReport& report) {
     return json;
 }
 
-std::vector<std::string> write_report(const StabilityReport& report, const std::string& folder) {
+std::vector<std::string> write_report(const stability::Report& report, const std::string& folder) {
     std::vector<std::string> files;
     const auto write = [&](const std::string& name, const std::string& text) {
         files.push_back(folder + "/" + name);
@@ -166,7 +162,7 @@ std::vector<std::string> write_report(const StabilityReport& report, const std::
     write("table.json", to_json(report).dump(1) + "\n");
     write("table.csv", to_csv(report));
     std::size_t number = 0;
-    for (const MeasuredCase& m : report.cases) {
+    for (const stability::MeasuredCase& m : report.cases) {
         ++number;
         if (m.results.front().points.size() > 1) {
             write(fmt::format("{:02}-{}.svg", number, file_name(fmt::format("{} {}", m.which->row, m.which->name))),

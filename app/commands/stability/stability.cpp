@@ -1,13 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "commands/arguments/arguments.h"
 #include "commands/arguments/backend_pair.h"
 #include "commands/command.h"
-#include "error.h"
+#include "console/interrupt.h"
 #include "console/report.h"
 #include "commands/stability/report.h"
 #include "console/step_line.h"
@@ -42,29 +41,9 @@ std::vector<std::unique_ptr<stability::Backend>> make_backends(const PairArgumen
     return backends;
 }
 
-std::vector<const stability::Case*> chosen_cases(const std::vector<std::string>& rows) {
-    std::vector<const stability::Case*> chosen;
-    std::string names;
-    for (const stability::Case& c : stability::all_cases()) {
-        if (rows.empty() || std::count(rows.begin(), rows.end(), c.row) > 0) {
-            chosen.push_back(&c);
-        }
-        if (names.find(c.row) == std::string::npos) {
-            names += (names.empty() ? "" : ", ") + std::string(c.row);
-        }
-    }
-    for (const std::string& row : rows) {
-        const auto is_row = [&](const stability::Case* c) { return row == c->row; };
-        if (std::none_of(chosen.begin(), chosen.end(), is_row)) {
-            throw Error(fmt::format("--rows {}: there is no such row; there are {}", row, names));
-        }
-    }
-    return chosen;
-}
-
 int run_stability(const StabilityOptions& options) {
     check_pair(options.pair);
-    const std::vector<const stability::Case*> cases = chosen_cases(options.rows);
+    const std::vector<const stability::Case*> cases = stability::cases_of(options.rows);
     if (options.list) {
         print_case_list(cases, options.json);
         return exit_done;
@@ -72,22 +51,14 @@ int run_stability(const StabilityOptions& options) {
     if (!options.output.empty()) {
         prepare_folder(options.output);
     }
-    StabilityReport report;
-    report.effort = options.quick ? stability::Effort::quick : stability::Effort::full;
+    const stability::Effort effort = options.quick ? stability::Effort::quick : stability::Effort::full;
+    const InterruptGuard interrupt;
+    stability::Report report;
     {
         const auto backends = make_backends(options.pair);
-        for (const auto& backend : backends) {
-            report.backends.push_back({backend->name(), backend->device()});
-        }
         StepLine line(static_cast<int>(cases.size() * backends.size()));
-        for (const stability::Case* c : cases) {
-            MeasuredCase measured{c, {}};
-            for (const auto& backend : backends) {
-                line.begin(fmt::format("{}: {}: {}", backend->name(), c->row, c->name));
-                measured.results.push_back(stability::run_case(*c, *backend, report.effort));
-            }
-            report.cases.push_back(std::move(measured));
-        }
+        report = stability::run_cases(cases, backends, effort, interrupt.requested(),
+                                      [&](const std::string& what) { line.begin(what); });
     }
     const std::vector<std::string> files =
         options.output.empty() ? std::vector<std::string>() : write_report(report, options.output);
@@ -97,6 +68,10 @@ int run_stability(const StabilityOptions& options) {
         print_json(json);
     } else {
         print_report(report);
+    }
+    if (report.interrupted) {
+        report_error(fmt::format("interrupted: {} of {} cases were measured", report.cases.size(), cases.size()));
+        return exit_interrupted;
     }
     return passes(report) ? exit_done : exit_check_failed;
 }

@@ -2,20 +2,17 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "clock.h"
 #include "session/make_renderer.h"
 #include "commands/arguments/recommended_arguments.h"
 #include "commands/command.h"
 #include "error.h"
 #include "console/interrupt.h"
-#include "random_scene/judge.h"
+#include "random_scene/random_suite.h"
 #include "random_scene/scene_files.h"
-#include "random_scene/shrink.h"
 #include "settings/names.h"
 #include "console/option_names.h"
 #include "console/report.h"
@@ -27,8 +24,6 @@ namespace diptych::core::app {
 namespace {
 
 constexpr double default_half_width = 1;  // percent
-constexpr double shrinking_p = 1e-5;      // below which a smaller scene counts as failing too
-constexpr std::uint32_t confirming_seeds = 0x08000000U;  // apart from those of all stages (judge.cpp)
 
 /// Options that go with --random; all others belong to the scene, or to tests of one scene.
 constexpr const char* allowed[] = {"--random",         "--seed",      "--backends", "--integrators",
@@ -94,26 +89,19 @@ JudgeOptions judge_options(const VerifyOptions& options) {
     return out;
 }
 
-/// A folder for the scenes' files, gone with this.
-class ScratchFolder {
-public:
-    ScratchFolder()
-        : path_(std::filesystem::temp_directory_path() / fmt::format("diptych-random-{}", getpid())) {
-        std::filesystem::create_directories(path_);
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
+RandomSuiteSettings suite_settings(const VerifyOptions& options) {
+    RandomSuiteSettings out;
+    out.scenes = options.random;
+    out.first_seed = options.seed;
+    out.motion = options.moving  ? RandomMotion::moving
+                 : options.still ? RandomMotion::still
+                                 : RandomMotion::even_seeds;
+    out.shrink = options.shrink;
+    out.judge = judge_options(options);
+    return out;
+}
 
-    std::filesystem::path file(const std::string& name) const { return path_ / name; }
-
-private:
-    std::filesystem::path path_;
-};
-
+/// A finding as files, and the commands that show it.
 struct Failure {
     RandomPair pair;
     std::string file;     // the smallest scene that fails
@@ -127,96 +115,30 @@ struct Refusal {
     std::string reason;
 };
 
-/// Every second scene moves unless one kind is asked for.
-RandomScene scene_of(std::uint64_t seed, const VerifyOptions& options) {
-    const bool moves = options.moving || (!options.still && seed % 2 == 0);
-    return moves ? make_moving_random_scene(seed) : make_random_scene(seed);
-}
-
-/// Whether the failing pair fails on this scene too.
-bool fails_alike(const RandomScene& random, const RandomPair& failed, const Renderers& renderers, JudgeOptions options,
-                 const std::filesystem::path& scratch) {
-    options.integrators = {failed.integrator};
-    Renderers wanted = renderers;
-    (failed.side.starts_with("cpu") ? wanted.vulkan : wanted.oracle) = {};
-    try {
-        const std::vector<RandomPair> pairs = compare_scene(random, scratch, wanted, options);
-        return std::any_of(pairs.begin(), pairs.end(), [&](const RandomPair& pair) {
-            const TileComparison& c = pair.comparison;
-            const bool differs = std::min({c.global_p, c.fisher_p, c.local_p}) < shrinking_p || c.unequal > 0;
-            return pair.frame == failed.frame && (failed.nonfinite > 0 ? pair.nonfinite > 0 : differs);
-        });
-    } catch (const Error&) {
-        return false;  // too small to be a scene
-    }
-}
-
-/// The smallest scene that fails. Trials are many and have few samples, so what they chose is judged once more by all
-/// stages, with other seeds; if it does not fail then, the scene stays whole.
-RandomScene shrink_failing(const RandomScene& whole, const RandomPair& failed, const Renderers& renderers,
-                           const JudgeOptions& judge_with, const ScratchFolder& scratch,
-                           const InterruptGuard& interrupt) {
-    JudgeOptions quickly = judge_with;
-    quickly.third_stage = 1;
-    const std::filesystem::path file = scratch.file("smaller.gltf");
-    const RandomScene smaller = shrink(whole, [&](const RandomScene& trial) {
-        return !interrupt.requested() && fails_alike(trial, failed, renderers, quickly, file);
-    });
-    JudgeOptions again = judge_with;
-    again.seed += confirming_seeds;
-    if (fails_alike(smaller, failed, renderers, again, file)) {
-        return smaller;
-    }
-    report_warning(fmt::format("seed {}: a smaller scene failed, but not again with other seeds: written whole",
-                               failed.scene));
-    return whole;
-}
-
-std::filesystem::path failing_file(const VerifyOptions& options, const std::string& name) {
+std::string write_finding(const VerifyOptions& options, const std::string& name, const RandomScene& scene) {
     const std::filesystem::path folder = options.output.empty() ? "." : options.output;
-    return (folder / (name + ".gltf")).lexically_normal();
+    const std::filesystem::path file = (folder / (name + ".gltf")).lexically_normal();
+    write_random_scene(scene, file);
+    return file.string();
 }
 
-Failure write_failure(const RandomPair& failed, const VerifyOptions& options, const Renderers& renderers,
-                      const JudgeOptions& judge_with, const ScratchFolder& scratch, const InterruptGuard& interrupt) {
-    RandomScene random = scene_of(failed.scene, options);
-    random.settings.integrator = failed.integrator;
-    const bool moves = random.frames > 0;
-    if (options.shrink && !interrupt.requested()) {
-        random = shrink_failing(random, failed, renderers, judge_with, scratch, interrupt);
-    }
+Failure write_failure(const RandomFailure& failure, const VerifyOptions& options, double half_width_percent) {
+    const RandomPair& failed = failure.pair;
+    const bool moves = failure.scene.frames > 0;
     const std::string name =
         fmt::format("random-{}{}-{}", failed.scene, moves ? "-moving" : "", name_of(failed.integrator));
-    const std::filesystem::path file = failing_file(options, name);
-    write_random_scene(random, file);
-    const std::string arguments = recommended_arguments(random, file);
-    return {failed, file.string(), fmt::format("diptych render {} {} -o {}.exr", file.string(), arguments, name),
+    const std::string file = write_finding(options, name, failure.scene);
+    const std::string arguments = recommended_arguments(failure.scene, file);
+    return {failed, file, fmt::format("diptych render {} {} -o {}.exr", file, arguments, name),
             fmt::format("diptych verify --random 1 --seed {} {} --integrators {} --backends {} --max-half-width {}",
                         failed.scene, moves ? "--moving" : "--still", name_of(failed.integrator),
-                        failed.side.starts_with("cpu") ? "cpu" : "vulkan", judge_with.half_width_percent)};
+                        failed.side.starts_with("cpu") ? "cpu" : "vulkan", half_width_percent)};
 }
 
-/// A scene that could not be rendered at all, though everything in it is allowed.
-Refusal write_refusal(std::uint64_t seed, const VerifyOptions& options, const Error& error) {
-    const std::filesystem::path file = failing_file(options, fmt::format("random-{}-refused", seed));
-    write_random_scene(scene_of(seed, options), file);
-    return {seed, file.string(), with_option_names(error.what())};
-}
-
-/// One failure a scene: its least likely pair.
-std::vector<RandomPair> failing_scenes(const std::vector<RandomPair>& pairs) {
-    std::vector<RandomPair> out;
-    for (const RandomPair& pair : pairs) {
-        if (pair.verdict.verdict != Verdict::fail) {
-            continue;
-        }
-        if (out.empty() || out.back().scene != pair.scene) {
-            out.push_back(pair);
-        } else if (pair.verdict.adjusted_p < out.back().verdict.adjusted_p) {
-            out.back() = pair;
-        }
-    }
-    return out;
+Refusal write_refusal(const RandomRefusal& refusal, const VerifyOptions& options) {
+    const std::uint64_t seed = refusal.scene.seed;
+    return {seed, write_finding(options, fmt::format("random-{}-refused", seed), refusal.scene),
+            with_option_names(refusal.reason)};
 }
 
 void print_failure(const Failure& failure) {
@@ -257,32 +179,11 @@ nlohmann::ordered_json failure_json(const Failure& failure) {
     return json;
 }
 
-struct RandomReport {
-    std::uint32_t scenes = 0;
-    std::vector<RandomPair> pairs;
+/// The findings as they were written.
+struct Findings {
     std::vector<Failure> failures;
     std::vector<Refusal> refusals;
-    bool interrupted = false;
-    ReachedPower oracle_power, common_power;
-    Verdict verdict = Verdict::inconclusive;
-    double seconds = 0;
 };
-
-/// A scene that cannot be read or rendered is a finding; a device that is missing or lost ends the run.
-void judge_scene(std::uint64_t seed, const VerifyOptions& options, const Renderers& renderers,
-                 const JudgeOptions& judged_with, const ScratchFolder& scratch, RandomReport& report) {
-    try {
-        const std::vector<RandomPair> pairs =
-            compare_scene(scene_of(seed, options), scratch.file("scene.gltf"), renderers, judged_with);
-        report.pairs.insert(report.pairs.end(), pairs.begin(), pairs.end());
-    } catch (const NoDevice&) {
-        throw;
-    } catch (const DeviceLost&) {
-        throw;
-    } catch (const Error& error) {
-        report.refusals.push_back(write_refusal(seed, options, error));
-    }
-}
 
 void print_power(const char* what, const ReachedPower& power, double wanted) {
     if (power.pairs > 0) {
@@ -298,7 +199,8 @@ nlohmann::ordered_json power_json(const ReachedPower& power) {
             {"reached_share", power.reached_share}};
 }
 
-void print_report(const VerifyOptions& options, const JudgeOptions& judged_with, const RandomReport& report) {
+void print_suite(const VerifyOptions& options, const JudgeOptions& judged_with, const RandomSuite& report,
+                 const Findings& findings) {
     if (options.json) {
         nlohmann::ordered_json json{{"scenes", report.scenes},
                                     {"asked", options.random},
@@ -313,10 +215,10 @@ void print_report(const VerifyOptions& options, const JudgeOptions& judged_with,
                                     {"failures", nlohmann::ordered_json::array()},
                                     {"pairs", nlohmann::ordered_json::array()},
                                     {"seconds", report.seconds}};
-        for (const Refusal& refusal : report.refusals) {
+        for (const Refusal& refusal : findings.refusals) {
             json["refusals"].push_back({{"seed", refusal.scene}, {"output", refusal.file}, {"reason", refusal.reason}});
         }
-        for (const Failure& failure : report.failures) {
+        for (const Failure& failure : findings.failures) {
             json["failures"].push_back(failure_json(failure));
         }
         for (const RandomPair& pair : report.pairs) {
@@ -325,10 +227,10 @@ void print_report(const VerifyOptions& options, const JudgeOptions& judged_with,
         print_json(json);
         return;
     }
-    for (const Refusal& refusal : report.refusals) {
+    for (const Refusal& refusal : findings.refusals) {
         fmt::print("seed {}: refused: {}\n  {}\n", refusal.scene, refusal.reason, refusal.file);
     }
-    for (const Failure& failure : report.failures) {
+    for (const Failure& failure : findings.failures) {
         print_failure(failure);
     }
     fmt::print("{} scenes from seed {}, {:.0f} s{}\n", report.scenes, options.seed, report.seconds,
@@ -362,29 +264,23 @@ int verify_random(const VerifyOptions& options) {
     const std::vector<std::string> backends =
         given(options, "--backends") || DIPTYCH_VULKAN == 0 ? options.backends : std::vector<std::string>{"cpu", "vulkan"};
     const Renderers renderers = make_renderers(options, backends);
-    const JudgeOptions judged_with = judge_options(options);
-    const ScratchFolder scratch;
-    const Stopwatch watch;
-    RandomReport report;
+    const RandomSuiteSettings settings = suite_settings(options);
     const InterruptGuard interrupt;
+    RandomSuite report;
     {
         StepLine line(static_cast<int>(options.random));
-        for (; report.scenes < options.random && !interrupt.requested(); ++report.scenes) {
-            const std::uint64_t seed = std::uint64_t(options.seed) + report.scenes;
-            line.begin(fmt::format("seed {}", seed));
-            judge_scene(seed, options, renderers, judged_with, scratch, report);
-        }
+        report = judge_random_scenes(settings, renderers, interrupt.requested(),
+                                     {.begin = [&](std::uint64_t seed) { line.begin(fmt::format("seed {}", seed)); },
+                                      .warn = report_warning});
     }
-    judge_all(report.pairs, judged_with);
-    for (const RandomPair& failed : failing_scenes(report.pairs)) {
-        report.failures.push_back(write_failure(failed, options, renderers, judged_with, scratch, interrupt));
+    Findings findings;
+    for (const RandomFailure& failure : report.failures) {
+        findings.failures.push_back(write_failure(failure, options, settings.judge.half_width_percent));
     }
-    report.interrupted = interrupt.requested();  // while scenes were judged, or made smaller
-    report.oracle_power = reached_power(report.pairs, "cpu", judged_with.half_width_percent);
-    report.common_power = reached_power(report.pairs, "vulkan", judged_with.half_width_percent);
-    report.verdict = report.refusals.empty() ? verdict_of(report.pairs, judged_with) : Verdict::fail;
-    report.seconds = watch.seconds();
-    print_report(options, judged_with, report);
+    for (const RandomRefusal& refusal : report.refusals) {
+        findings.refusals.push_back(write_refusal(refusal, options));
+    }
+    print_suite(options, settings.judge, report, findings);
     if (report.interrupted) {
         return exit_interrupted;
     }

@@ -188,7 +188,7 @@ int run_verify(VerifyOptions options) {
 }  // namespace
 
 void add_verify(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("verify", "Test that panels and integrators have one expectation");
+    CLI::App* command = app.add_subcommand("verify", "Test whether panels and integrators converge to the same image");
     auto options = std::make_shared<VerifyOptions>();
     RenderRequest& request = options->arguments.request;
     command->add_option("scene", request.scene, ".gltf or .glb file");
