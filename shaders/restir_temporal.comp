@@ -5,7 +5,7 @@
 
 #include "region.glsl"
 #include "resampling_memory.glsl"
-#include "restir/reuse_passes.kernel.h"
+#include "restir/reuse.kernel.h"
 
 void main() {
     if (is_in_region()) {

@@ -3,7 +3,7 @@
 #include <dlfcn.h>
 
 #include "error.h"
-#include "image/library/entry.h"
+#include "image/oiio/entry.h"
 
 namespace diptych::core {
 namespace {

@@ -1,5 +1,5 @@
 // What Diptych asks of OpenImageIO. OpenImageIO loads some 250 shared libraries, which takes a quarter of a second and
-// 130 MB. So it is linked into a shared object of its own, libdiptych_images.so (image/library), which is loaded when
+// 130 MB. So it is linked into a shared object of its own, libdiptych_images.so (image/oiio), which is loaded when
 // the first picture is read or written.
 #pragma once
 

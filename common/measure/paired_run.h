@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "image/image.h"
-#include "render/paired_test.h"
+#include "measure/path_agreement.h"
 #include "render/session.h"
 
 namespace diptych::core {

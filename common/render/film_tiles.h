@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/film.h"
-#include "stats/tile_test.h"
+#include "stats/bias_test.h"
 
 namespace diptych::core {
 

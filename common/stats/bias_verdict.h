@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stats/tile_test.h"
+#include "stats/bias_test.h"
 
 namespace diptych::core {
 

@@ -17,7 +17,7 @@
 
 #include "restir/candidates.kernel.h"
 #include "restir/resampled_path.kernel.h"
-#include "restir/reuse_passes.kernel.h"
+#include "restir/reuse.kernel.h"
 
 FN bool has_emitters() { return feature(FEATURE_EMISSIVE) && constants.emissive_triangle_count > 0u; }
 

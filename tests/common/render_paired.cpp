@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "render/paired_test.h"
+#include "measure/path_agreement.h"
 #include "render/recorded_path.h"
 
 using namespace diptych::core;

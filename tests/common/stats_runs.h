@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "stats/tile_test.h"
+#include "stats/bias_test.h"
 
 namespace diptych::core::tests {
 

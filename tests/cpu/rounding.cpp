@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "render/paired_test.h"
+#include "measure/path_agreement.h"
 #include "render_fixture.h"
 
 using namespace diptych::core;

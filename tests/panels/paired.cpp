@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "panels_fixture.h"
-#include "render/paired_test.h"
+#include "measure/path_agreement.h"
 
 using namespace diptych::core;
 using namespace diptych::core::tests;

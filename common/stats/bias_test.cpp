@@ -1,4 +1,4 @@
-#include "stats/tile_test.h"
+#include "stats/bias_test.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "image/library/encode.h"
+#include "image/oiio/encode.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "image/library/fail.h"
+#include "image/oiio/fail.h"
 
 namespace diptych::core {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/paired_test.h"
+#include "measure/path_agreement.h"
 
 #include <algorithm>
 #include <cmath>

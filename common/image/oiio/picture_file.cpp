@@ -1,4 +1,4 @@
-#include "image/library/picture_file.h"
+#include "image/oiio/picture_file.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -8,7 +8,7 @@
 #include <array>
 #include <mutex>
 
-#include "image/library/fail.h"
+#include "image/oiio/fail.h"
 
 namespace diptych::core {
 namespace {

@@ -1,11 +1,11 @@
-#include "image/library/entry.h"
+#include "image/oiio/entry.h"
 
 #include <OpenImageIO/imageio.h>
 
 #include <string_view>
 
-#include "image/library/encode.h"
-#include "image/library/picture_file.h"
+#include "image/oiio/encode.h"
+#include "image/oiio/picture_file.h"
 
 namespace diptych::core {
 namespace {
