@@ -1,4 +1,4 @@
-// The engine of `verify --random`: scenes drawn one after another, judged together, and those that fail made small.
+// The engine that judges random scenes: drawn one after another, judged together, and those that fail made small.
 #pragma once
 
 #include <atomic>

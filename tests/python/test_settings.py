@@ -63,7 +63,7 @@ def test_the_message_is_the_programs():
         dp.Settings(integrator="photon")
 
 
-@pytest.mark.parametrize("arguments, says", [({"backend": "gpu"}, "cpu, vulkan and oracle"), ({"camera": 7}, "camera"),
+@pytest.mark.parametrize("arguments, says", [({"backend": "gpu"}, "cpu, vulkan, oracle"), ({"camera": 7}, "camera"),
                                              ({"device": "x"}, "device: goes with backend vulkan"),
                                              ({"backend": "vulkan", "threads": 2}, "threads: goes with backend cpu"),
                                              ({"validation": True}, "validation: goes with backend vulkan"),

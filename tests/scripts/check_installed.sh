@@ -35,7 +35,7 @@ check_run() {
     "$scratch/usr/bin/diptych" compare "$scratch/out/cpu.exr" "$scratch/out/cpu.exr" >/dev/null || fail "cpu.exr is no picture"
     rm -r "$scratch/out"
 }
-cmake -S "$root/docs/examples" -B "$scratch/example" -DCMAKE_PREFIX_PATH="$scratch/usr" \
+cmake -G Ninja -S "$root/docs/examples" -B "$scratch/example" -DCMAKE_PREFIX_PATH="$scratch/usr" \
     -DCMAKE_CXX_COMPILER="${CXX:-c++}" >"$scratch/cmake.log" || fail "$(cat "$scratch/cmake.log")"
 cmake --build "$scratch/example" >"$scratch/cmake.log" 2>&1 || fail "$(cat "$scratch/cmake.log")"
 check_run "$scratch/example/two_panels"
