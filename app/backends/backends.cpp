@@ -67,6 +67,14 @@ std::unique_ptr<Renderer> open_renderer(const Scene& scene, const PackedScene& p
 #endif
 }
 
+MakeRenderer renderer_maker(const RenderRequest& request) {
+    return [request](const Scene& scene, const PackedScene& packed, const RenderSettings& settings) {
+        RenderRequest asked = request;
+        asked.settings = settings;
+        return open_renderer(scene, packed, asked);
+    };
+}
+
 std::vector<std::string> usable_devices() {
     std::vector<std::string> names;
 #if DIPTYCH_VULKAN

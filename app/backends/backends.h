@@ -8,6 +8,7 @@
 #include "pack/packed_scene.h"
 #include "render/renderer.h"
 #include "render/request.h"
+#include "render/session.h"
 #include "scene/scene.h"
 
 namespace diptych::core::app {
@@ -19,6 +20,9 @@ std::vector<std::string> backend_names();
 /// the logical one it was made of; both must outlive the renderer. From any thread. Throws NoDevice where there is no
 /// suitable one, Error where the program was built without that backend.
 std::unique_ptr<Renderer> open_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request);
+
+/// Opens renderers of that request, under the settings that a session asks for.
+MakeRenderer renderer_maker(const RenderRequest& request);
 
 /// Names of the Vulkan devices that can render, in Vulkan's order.
 std::vector<std::string> usable_devices();

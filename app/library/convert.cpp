@@ -119,8 +119,12 @@ core::Camera to_core(const Camera& camera) {
 }
 
 Camera from_core(const core::Camera& camera) {
-    return {camera.name,         from_core(camera.camera_to_world), camera.orthographic,
-            camera.vertical_fov, camera.orthographic_height,        camera.lens.radius,
+    return {camera.name,
+            from_core(camera.camera_to_world),
+            camera.orthographic,
+            camera.vertical_fov,
+            camera.orthographic_height,
+            camera.lens.radius,
             camera.lens.focus_distance};
 }
 
@@ -136,8 +140,12 @@ core::PunctualLight to_core(const Light& light) {
 }
 
 Light from_core(const core::PunctualLight& light) {
-    return {light.name,           static_cast<LightKind>(light.type), from_core(light.light_to_world),
-            vec(light.intensity), light.inner_cone,                   light.outer_cone};
+    return {light.name,
+            static_cast<LightKind>(light.type),
+            from_core(light.light_to_world),
+            vec(light.intensity),
+            light.inner_cone,
+            light.outer_cone};
 }
 
 Environment from_core(const core::Environment& environment) {
@@ -192,8 +200,8 @@ void apply(const Tables& before, const Tables& after, core::Scene& scene) {
         if (changed(before.cameras, after.cameras, i)) {
             core::Camera camera = to_core(after.cameras[i]);
             camera.aspect = scene.cameras[i].aspect;
-            const bool stays = i < before.cameras.size() &&
-                               before.cameras[i].camera_to_world == after.cameras[i].camera_to_world;
+            const bool stays =
+                i < before.cameras.size() && before.cameras[i].camera_to_world == after.cameras[i].camera_to_world;
             camera.node = stays ? scene.cameras[i].node : core::none;
             scene.cameras[i] = camera;
         }
@@ -213,8 +221,8 @@ void apply(const Tables& before, const Tables& after, core::Scene& scene) {
     for (std::size_t i = 0; i < after.instances.size(); ++i) {
         if (changed(before.instances, after.instances, i)) {
             const Instance& instance = after.instances[i];
-            const bool stays = i < before.instances.size() &&
-                               before.instances[i].object_to_world == instance.object_to_world;
+            const bool stays =
+                i < before.instances.size() && before.instances[i].object_to_world == instance.object_to_world;
             const int node = stays ? scene.instances[i].node : core::none;
             scene.instances[i] = {instance.name, instance.mesh, to_core(instance.object_to_world), node};
         }

@@ -28,7 +28,7 @@ struct Tables {
 
 struct SceneData {
     Tables tables;
-    Tables synced;                        // what `content` says
+    Tables synced;                         // what `content` says
     std::shared_ptr<core::Scene> content;  // written only while nobody else holds it
     std::uint64_t revision = 0;            // of this process; 0 is the scene as its file has it
 

@@ -25,13 +25,7 @@ core::SideName to_core(const Side& side) {
 }
 
 core::Session open_session(const core::Scene& scene, const core::RenderRequest& request, bool) {
-    const auto make = [request](const core::Scene& s, const core::PackedScene& packed,
-                                const core::RenderSettings& settings) {
-        core::RenderRequest asked = request;
-        asked.settings = settings;
-        return core::app::open_renderer(s, packed, asked);
-    };
-    return {scene, request.settings, make};
+    return {scene, request.settings, core::app::renderer_maker(request)};
 }
 
 Verdict verdict_of(const core::PairResult& pair, const core::TileGrid& grid) {
@@ -63,7 +57,7 @@ Verdict verify(const Scene& scene, const VerifyOptions& options) {
         check(options.settings, content->cameras.size());
         if (options.runs < 3 || options.spp == 0 || options.tile < 1) {
             throw SettingError(fmt::format("verify: runs is {}, spp {}, tile {}; they have to be at least 3, 1 and 1",
-                                    options.runs, options.spp, options.tile));
+                                           options.runs, options.spp, options.tile));
         }
         if (!(options.alpha > 0 && options.alpha < 1)) {
             throw SettingError(fmt::format("verify: alpha is {:g}; it has to lie between 0 and 1", options.alpha));
@@ -86,14 +80,14 @@ Verdict verify(const Scene& scene, const VerifyOptions& options) {
         const StopFlag stop(options.stop);
         std::mutex mutex;  // sides on different backends render at the same time
         std::uint32_t begun = 0;
-        const std::optional<core::SuiteResult> suite = core::run_suite(
-            settings, {*content, request, open_session}, {{to_core(options.a), to_core(options.b), {}}},
-            options.settings.seed, stop.flag(), [&](const core::SideName&, std::uint32_t) {
-                if (options.progress) {
-                    const std::lock_guard lock(mutex);
-                    options.progress(begun++, 2 * options.runs);
-                }
-            });
+        const std::optional<core::SuiteResult> suite =
+            core::run_suite(settings, {*content, request, open_session}, {{to_core(options.a), to_core(options.b), {}}},
+                            options.settings.seed, stop.flag(), [&](const core::SideName&, std::uint32_t) {
+                                if (options.progress) {
+                                    const std::lock_guard lock(mutex);
+                                    options.progress(begun++, 2 * options.runs);
+                                }
+                            });
         if (!suite) {
             throw Interrupted("verify: stopped before all runs were done; there is no verdict");
         }

@@ -143,7 +143,8 @@ void check(const MeshData& mesh, std::size_t materials) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         for (const std::uint32_t index : mesh.triangles[i]) {
             if (index >= vertices) {
-                throw Error(fmt::format("{}: triangles[{}] names position {}; there are {}", object, i, index, vertices));
+                throw Error(
+                    fmt::format("{}: triangles[{}] names position {}; there are {}", object, i, index, vertices));
             }
         }
     }
@@ -221,7 +222,8 @@ std::size_t Scene::triangle_count() const {
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= mesh_count()) {
             continue;  // refused at the next render
         }
-        for (const core::Primitive& primitive : data_->content->meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
+        for (const core::Primitive& primitive :
+             data_->content->meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
             count += primitive.triangles.size();
         }
     }

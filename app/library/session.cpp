@@ -13,22 +13,11 @@
 
 DIPTYCH_BEGIN
 
-namespace {
-
-core::MakeRenderer maker_of(const core::RenderRequest& request) {
-    return [request](const core::Scene& scene, const core::PackedScene& packed, const core::RenderSettings& settings) {
-        core::RenderRequest asked = request;
-        asked.settings = settings;
-        return core::app::open_renderer(scene, packed, asked);
-    };
-}
-
-}  // namespace
-
 core::RenderSettings SessionData::core_settings() const {
     core::RenderSettings out = to_core(settings);
     // Reuse looks back to the picture before, which costs memory: only where there is another moment or view.
-    out.moves = choice.backend != Backend::oracle && core::chains_frames(out) && (core::moves(*content) || moment.camera);
+    out.moves =
+        choice.backend != Backend::oracle && core::chains_frames(out) && (core::moves(*content) || moment.camera);
     return out;
 }
 
@@ -66,8 +55,8 @@ void SessionData::open() {
             }
         }
     };
-    session =
-        std::make_unique<core::Session>(*content, core_settings(), maker_of(request()), moment, std::move(hooks));
+    session = std::make_unique<core::Session>(*content, core_settings(), core::app::renderer_maker(request()), moment,
+                                              std::move(hooks));
     begin_picture();
 }
 

@@ -67,7 +67,8 @@ Backend backend_from(const std::string& name) {
             return static_cast<Backend>(i);
         }
     }
-    throw SettingError("no backend '" + name + "'" + core::did_you_mean(name, names) + "; there are only cpu, vulkan, oracle");
+    throw SettingError("no backend '" + name + "'" + core::did_you_mean(name, names) +
+                       "; there are only cpu, vulkan, oracle");
 }
 
 Integrator integrator_from(const std::string& name) {

@@ -42,7 +42,8 @@ void require_share(float value, const std::string& object, const char* field) {
 }
 
 void check_slot(const TextureSlot& slot, const std::string& object, const char* field, std::size_t textures) {
-    const bool exists = slot.texture == none || (slot.texture >= 0 && static_cast<std::size_t>(slot.texture) < textures);
+    const bool exists =
+        slot.texture == none || (slot.texture >= 0 && static_cast<std::size_t>(slot.texture) < textures);
     require(exists, object, field, slot.texture, fmt::format("below the number of textures, {}", textures).c_str());
     require(slot.uv_set == 0 || slot.uv_set == 1, object, "uv_set", slot.uv_set, "0 or 1");
 }
@@ -166,7 +167,8 @@ void check(const Settings& s, std::size_t cameras) {
     constexpr int largest_side = 65536;
     for (const int side : s.size) {
         if (side < 1 || side > largest_side) {
-            throw SettingError(fmt::format("settings: size is {}; a side has to be 1 to {} pixels", side, largest_side));
+            throw SettingError(
+                fmt::format("settings: size is {}; a side has to be 1 to {} pixels", side, largest_side));
         }
     }
     if (s.camera < 0 || static_cast<std::size_t>(s.camera) >= cameras) {
@@ -176,7 +178,7 @@ void check(const Settings& s, std::size_t cameras) {
     const auto in_range = [](const core::SettingRange& range, double value, const char* field) {
         if (!range.accepted.holds(value)) {
             throw SettingError(fmt::format("settings: {} is {:g}; it has to lie between {:g} and {:g}", field, value,
-                                    range.accepted.least, range.accepted.most));
+                                           range.accepted.least, range.accepted.most));
         }
     };
     in_range(ranges::max_depth, s.max_depth, "max_depth");

@@ -15,7 +15,7 @@ namespace diptych::core {
 
 namespace {
 
-constexpr double shrinking_p = 1e-5;  // below which a smaller scene counts as failing too
+constexpr double shrinking_p = 1e-5;                     // below which a smaller scene counts as failing too
 constexpr std::uint32_t confirming_seeds = 0x08000000U;  // apart from those of all stages (judge.cpp)
 
 /// A folder for the scenes' files, deleted with this object.
@@ -73,9 +73,8 @@ bool fails_alike(const Suite& suite, const RandomScene& random, const RandomPair
 RandomScene shrink_failing(const Suite& suite, const RandomScene& whole, const RandomPair& failed) {
     JudgeOptions quickly = suite.settings.judge;
     quickly.third_stage = 1;
-    RandomScene smaller = shrink(whole, [&](const RandomScene& trial) {
-        return !suite.cancel && fails_alike(suite, trial, failed, quickly);
-    });
+    RandomScene smaller = shrink(
+        whole, [&](const RandomScene& trial) { return !suite.cancel && fails_alike(suite, trial, failed, quickly); });
     JudgeOptions again = suite.settings.judge;
     again.seed += confirming_seeds;
     if (fails_alike(suite, smaller, failed, again)) {

@@ -45,8 +45,8 @@ struct RandomSuite {
 };
 
 struct RandomSuiteHooks {
-    std::function<void(std::uint64_t seed)> begin;             // before each scene
-    std::function<void(const std::string& message)> warn;      // about scenes that could not be made smaller
+    std::function<void(std::uint64_t seed)> begin;         // before each scene
+    std::function<void(const std::string& message)> warn;  // about scenes that could not be made smaller
 };
 
 /// The scene of that seed.

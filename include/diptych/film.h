@@ -22,7 +22,7 @@ struct FilmInfo {
     std::uint64_t samples = 0;    // averaged, over all pixels
     std::uint64_t nonfinite = 0;  // samples dropped as not finite or negative
     std::uint64_t rays = 0;
-    double seconds = 0;           // of rendering
+    double seconds = 0;  // of rendering
 };
 
 // The implementation's.
@@ -30,7 +30,8 @@ struct Impl;
 struct FilmData;
 
 /// A value: sums, second moments and first hits of all pixels, and what they develop to. Copies share memory. Arrays
-/// are row-major, row 0 on top. A span is valid until the film is merged into, assigned or destroyed, or as long as a copy.
+/// are row-major, row 0 on top. A span is valid until the film is merged into, assigned or destroyed, or as long as a
+/// copy.
 class DIPTYCH_EXPORT Film {
 public:
     int width() const;
@@ -57,8 +58,8 @@ public:
     double relmse_estimate() const;
 
     /// Adds the other film's samples, as if this one had taken them too; the backends may differ. Throws Error, and
-    /// changes nothing, where the two differ in scene, edits, moment, view, layers or settings other than the seed, or have
-    /// samples in common.
+    /// changes nothing, where the two differ in scene, edits, moment, view, layers or settings other than the seed, or
+    /// have samples in common.
     void merge(const Film& other);
 
     /// Writes .exr (all layers, float32), .hdr, or .png (tone-mapped). The file appears whole or not at all. Throws

@@ -1,7 +1,8 @@
 // The scene: what is rendered.
 //
 // Conventions are glTF 2.0's: right-handed, metres, +Y up. A camera and a light look along their local -Z. Angles are
-// radians, but those of Sun are degrees. Colours are linear Rec.709. Texture coordinates start at the upper left corner of an image.
+// radians, but those of Sun are degrees. Colours are linear Rec.709. Texture coordinates start at the upper left corner
+// of an image.
 #pragma once
 
 #include <array>
@@ -46,8 +47,8 @@ enum class AlphaMode { opaque, mask, blend };
 struct Material {
     std::string name;
     Vec4 base_color{1, 1, 1, 1};
-    float metallic = 1;      // 0 to 1
-    float roughness = 1;     // 0 to 1; perceptual: the microfacet alpha is its square
+    float metallic = 1;   // 0 to 1
+    float roughness = 1;  // 0 to 1; perceptual: the microfacet alpha is its square
     float normal_scale = 1;
     Vec3 emission{0, 0, 0};  // radiance, W/(sr m²)
     float ior = 1.5F;        // 0, or at least 1
@@ -55,8 +56,8 @@ struct Material {
     Vec3 specular_color{1, 1, 1};
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5F;
-    bool double_sided = false;  // also: emits from both sides
-    bool unlit = false;         // shows base_color and scatters nothing
+    bool double_sided = false;               // also: emits from both sides
+    bool unlit = false;                      // shows base_color and scatters nothing
     TextureSlot base_color_texture;          // rgb sRGB, a linear
     TextureSlot metallic_roughness_texture;  // g roughness, b metallic
     TextureSlot normal_texture;              // tangent space, +Y up
@@ -150,8 +151,8 @@ struct SceneData;
 /// A handle: copies of it are the same scene, which lives as long as the last of them, or of the sessions that render
 /// it. What its references give may be edited at any time between calls of sessions; a session sees edits at its next
 /// render, pose, change of camera or settings, or replay, and throws there what is out of range. Materials may not be
-/// removed, nor lights of a scene with animations: other parts refer to them by index. Not to be edited by two threads at
-/// once.
+/// removed, nor lights of a scene with animations: other parts refer to them by index. Not to be edited by two threads
+/// at once.
 class DIPTYCH_EXPORT Scene {
 public:
     /// Empty, and black.
@@ -180,11 +181,11 @@ public:
     /// filtered. Returns its index. Throws Error where the size is wrong.
     int add_texture(int width, int height, std::span<const std::uint8_t> rgba, const std::string& name = "");
 
-    const std::string& name() const;             // the file's path; empty for a scene that was built
+    const std::string& name() const;  // the file's path; empty for a scene that was built
     std::size_t mesh_count() const;
-    std::size_t triangle_count() const;          // over all instances
-    std::vector<std::string> animations() const; // names, in the file's order
-    double duration() const;                     // seconds to the last key of the animations that play
+    std::size_t triangle_count() const;           // over all instances
+    std::vector<std::string> animations() const;  // names, in the file's order
+    double duration() const;                      // seconds to the last key of the animations that play
 
     /// A scene of its own with the same content.
     Scene copy() const;
@@ -199,7 +200,7 @@ struct LoadOptions {
     bool strict = false;                         // whatever would be a warning throws
     bool allow_external = false;                 // read what the file names outside its folder too
     std::string animation;                       // name or index of the one that plays; empty: all of them
-    bool complete = true;                        // add a camera where there is none, a neutral sky where it would be black
+    bool complete = true;  // add a camera where there is none, a neutral sky where it would be black
     std::function<void(const std::string& line)> warnings;
 };
 

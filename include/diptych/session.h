@@ -17,9 +17,9 @@ DIPTYCH_BEGIN
 
 /// What a backend can do beside rendering a picture at rest.
 struct Capabilities {
-    bool temporal_reuse = false;  // restir goes on from moment to moment
-    bool settings_change = false; // set_settings keeps what the settings do not touch, instead of building anew
-    bool replay = false;          // paths can be recorded
+    bool temporal_reuse = false;   // restir goes on from moment to moment
+    bool settings_change = false;  // set_settings keeps what the settings do not touch, instead of building anew
+    bool replay = false;           // paths can be recorded
 };
 
 struct Progress {
@@ -52,8 +52,8 @@ struct SessionOptions {
 struct SessionData;
 
 /// Used by one thread at a time, and may be moved between threads. Several sessions run at once. After DeviceLost a
-/// session can only be destroyed, and after a move only be assigned or destroyed. Other errors leave it usable; where the
-/// call had begun to change the picture, the film is empty.
+/// session can only be destroyed, and after a move only be assigned or destroyed. Other errors leave it usable; where
+/// the call had begun to change the picture, the film is empty.
 class DIPTYCH_EXPORT Session {
 public:
     /// Builds acceleration structures and pipelines. Throws NoDevice; SettingError for settings out of range or options
@@ -66,8 +66,8 @@ public:
 
     /// Adds the next `count` samples to every pixel: consecutive calls have the bits of one. 0 is no limit, where the
     /// options set one. Edits of the scene since the last call begin another picture first. The film so far stays whole
-    /// whatever happens. Throws SettingError where nothing limits the render or the settings keep no standard errors for
-    /// `relmse`; Error where an edit is out of range; DeviceLost.
+    /// whatever happens. Throws SettingError where nothing limits the render or the settings keep no standard errors
+    /// for `relmse`; Error where an edit is out of range; DeviceLost.
     RenderResult render(std::uint32_t count, const RenderOptions& options = {});
 
     /// The same with samples first .. first+count-1, for films that are merged later. Throws Error where the film has

@@ -37,7 +37,7 @@ struct ResamplingSettings {
     bool temporal = true;
     std::uint32_t spatial_passes = 1;
     std::uint32_t neighbors = 4;
-    float radius = 16;  // pixels
+    float radius = 16;         // pixels
     float confidence_cap = 4;  // of the frame before, in frames
     ResamplingMis mis = ResamplingMis::pairwise;
     ResamplingVisibility visibility = ResamplingVisibility::shading;
@@ -50,14 +50,14 @@ struct Settings {
     std::array<int, 2> size = {512, 512};  // width, height; 1 to 65536 pixels
     std::uint32_t max_depth = 8;           // scattering events, 0 to 65535: 1 is emission and direct light
     std::uint32_t seed = 0;
-    int camera = 0;                        // index into Scene::cameras
+    int camera = 0;  // index into Scene::cameras
     SamplerKind sampler = SamplerKind::sobol;
-    std::uint32_t sample_count = 64;       // samples a pixel that a Hammersley set is laid out for
+    std::uint32_t sample_count = 64;  // samples a pixel that a Hammersley set is laid out for
     MisHeuristic mis = MisHeuristic::power;
     BrdfModel brdf = BrdfModel::ggx;
     NormalMaps normal_maps = NormalMaps::shading;
-    bool standard_error = true;            // keep second moments
-    bool first_hit = true;                 // keep albedo, normal and depth
+    bool standard_error = true;  // keep second moments
+    bool first_hit = true;       // keep albedo, normal and depth
     ResamplingSettings resampling;
 
     bool operator==(const Settings&) const = default;

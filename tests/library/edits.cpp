@@ -1,4 +1,5 @@
-// An edited scene renders as a scene that was so from the start, on every backend and in a session that was open before.
+// An edited scene renders as a scene that was so from the start, on every backend and in a session that was open
+// before.
 #include <functional>
 
 #include "library/library_fixture.h"
@@ -14,25 +15,46 @@ struct Edit {
 
 const std::vector<Edit> edits = {
     {"roughness", [](dp::Scene& s) { s.material("white").roughness = 0.2F; }},
-    {"color", [](dp::Scene& s) { s.material("red").base_color = {0.1F, 0.7F, 0.1F, 1}; }},
-    {"a brighter lamp", [](dp::Scene& s) { s.material("lamp").emission = {40, 40, 40}; }},
-    {"a lamp goes out", [](dp::Scene& s) { s.material("lamp").emission = {0, 0, 0}; }},
-    {"a wall emits", [](dp::Scene& s) { s.material("red").emission = {1, 0.2F, 0.2F}; }},
+    {"color",
+     [](dp::Scene& s) {
+         s.material("red").base_color = {0.1F, 0.7F, 0.1F, 1};
+     }},
+    {"a brighter lamp",
+     [](dp::Scene& s) {
+         s.material("lamp").emission = {40, 40, 40};
+     }},
+    {"a lamp goes out",
+     [](dp::Scene& s) {
+         s.material("lamp").emission = {0, 0, 0};
+     }},
+    {"a wall emits",
+     [](dp::Scene& s) {
+         s.material("red").emission = {1, 0.2F, 0.2F};
+     }},
     {"both sides", [](dp::Scene& s) { s.material("lamp").double_sided = true; }},
-    {"glass of alpha", [](dp::Scene& s) {
+    {"glass of alpha",
+     [](dp::Scene& s) {
          s.material("red").alpha_mode = dp::AlphaMode::blend;
          s.material("red").base_color[3] = 0.4F;
      }},
-    {"a sun", [](dp::Scene& s) { s.add(dp::Sun{30, 40, 3}); }},
-    {"a spot", [](dp::Scene& s) {
+    {"a sun",
+     [](dp::Scene& s) {
+         s.add(dp::Sun{30, 40, 3});
+     }},
+    {"a spot",
+     [](dp::Scene& s) {
          dp::Light light;
          light.kind = dp::LightKind::spot;
          light.light_to_world = dp::look_at({0, 1.8, 1}, {0, 0, 0}).camera_to_world;
          light.intensity = {5, 5, 5};
          s.lights().push_back(light);
      }},
-    {"a sky", [](dp::Scene& s) { s.environment().scale = {0.3F, 0.4F, 0.5F}; }},
-    {"a map", [](dp::Scene& s) {
+    {"a sky",
+     [](dp::Scene& s) {
+         s.environment().scale = {0.3F, 0.4F, 0.5F};
+     }},
+    {"a map",
+     [](dp::Scene& s) {
          auto map = std::make_shared<dp::EnvironmentMap>();
          map->width = 4;
          map->height = 2;
@@ -40,10 +62,14 @@ const std::vector<Edit> edits = {
          map->texels[2] = {4, 3, 2};
          s.environment() = {{1, 1, 1}, 0.5, map};
      }},
-    {"another camera", [](dp::Scene& s) { s.camera("front") = dp::look_at({1, 1, 3}, {0, 0.5, 0}); }},
+    {"another camera",
+     [](dp::Scene& s) {
+         s.camera("front") = dp::look_at({1, 1, 3}, {0, 0.5, 0});
+     }},
     {"a wall moves", [](dp::Scene& s) { s.instance("wall").object_to_world[14] = 0.7; }},
     {"a wall goes", [](dp::Scene& s) { s.instances().erase(s.instances().begin() + 1); }},
-    {"a mesh comes", [](dp::Scene& s) {
+    {"a mesh comes",
+     [](dp::Scene& s) {
          const std::vector<dp::Vec3> corners = {{0, 0, 0}, {0.8F, 0, 0}, {0, 0.8F, 0}};
          const std::vector<std::array<std::uint32_t, 3>> triangle = {{0, 1, 2}};
          dp::MeshData mesh;
@@ -51,7 +77,8 @@ const std::vector<Edit> edits = {
          mesh.triangles = triangle;
          s.add_mesh(mesh);
      }},
-    {"a texture", [](dp::Scene& s) {
+    {"a texture",
+     [](dp::Scene& s) {
          const std::vector<std::uint8_t> texels = {255, 255, 255, 255, 20, 20, 20, 255};
          s.material("white").base_color_texture.texture = s.add_texture(2, 1, texels);
      }},
