@@ -1,4 +1,4 @@
-// The engine that judges random scenes: drawn one after another, judged together, and those that fail made small.
+// Verification by random scenes: scenes are drawn one after another and judged together. Those that fail are shrunk.
 #pragma once
 
 #include <atomic>
@@ -45,8 +45,8 @@ struct RandomSuite {
 };
 
 struct RandomSuiteHooks {
-    std::function<void(std::uint64_t seed)> begin;         // before each scene
-    std::function<void(const std::string& message)> warn;  // about scenes that could not be made smaller
+    std::function<void(std::uint64_t seed)> begin;             // before each scene
+    std::function<void(const std::string& message)> warn;      // about scenes that could not be made smaller
 };
 
 /// The scene of that seed.
