@@ -63,7 +63,7 @@ std::unique_ptr<Renderer> open_renderer(const Scene& scene, const PackedScene& p
     options.group_instances = request.group_instances;
     return make_vulkan_renderer(keep_device(options), packed, options);
 #else
-    throw Error("backend vulkan: this build is without it (DIPTYCH_VULKAN=OFF); use the backend cpu");
+    throw Error("backend vulkan: this build has no Vulkan (DIPTYCH_VULKAN=OFF); use the backend cpu");
 #endif
 }
 

@@ -27,7 +27,7 @@ Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 no suitable device
 int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
     std::string message = one_line(error.what());
     if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && app.get_subcommands().empty()) {
-        message = argc < 2 ? "wants a command" : fmt::format("there is no command '{}'", argv[1]);
+        message = argc < 2 ? "no command given" : fmt::format("there is no command '{}'", argv[1]);
     }
     report_error(fmt::format("{} ({})", message, suggestion(app, argc, argv)));
     return exit_bad_input;

@@ -43,7 +43,7 @@ Environment requested_environment(const std::string& text, Warnings& warnings) {
     if (!color) {
         const bool like_numbers = text.find_first_not_of("0123456789+-.,eE ") == std::string::npos;
         if (like_numbers && !std::filesystem::exists(text)) {
-            throw Error(fmt::format("--env {}: wants three numbers R,G,B or a file", text));
+            throw Error(fmt::format("--env {}: expected three numbers R,G,B or a file", text));
         }
         std::string lines;
         const Environment environment = load_environment(text, &lines);
@@ -111,7 +111,7 @@ int find_camera(const Scene& scene, const std::string& wanted) {
 void choose_camera(Scene& scene, RenderRequest& request) {
     const bool fits = request.camera.empty() || request.camera == "0";
     if (fits && add_missing_camera(scene) && !request.viewpoint.eye) {
-        scene.warnings.add("the scene has no camera: seen by one that frames it", scene.name);
+        scene.warnings.add("the scene has no camera; a default camera that frames it is used", scene.name);
     }
     if (!request.camera.empty()) {
         request.settings.camera = find_camera(scene, request.camera);
@@ -145,7 +145,7 @@ void place_lights(const RenderRequest& request, Scene& scene) {
     const Moment moment = requested_lights(request);
     if (scene.environment.kind == Environment::Kind::none && changes_environment(moment)) {
         throw Error(fmt::format(
-            "{}: --env-scale and --env-rotate want an environment, and the scene has none: give --env", scene.name));
+            "{}: --env-scale and --env-rotate need an environment, and the scene has none; give --env", scene.name));
     }
     put_lights(scene, moment, scene);
 }
@@ -153,7 +153,7 @@ void place_lights(const RenderRequest& request, Scene& scene) {
 void place_camera(const RenderRequest& request, Scene& scene) {
     Camera& camera = scene.cameras[static_cast<std::size_t>(request.settings.camera)];
     if (request.lens.radius.value_or(0) > 0 && !request.lens.focus_distance) {
-        throw Error("--aperture: wants --focus, the distance in focus");
+        throw Error("--aperture: needs --focus, the focus distance");
     }
     place_at(request.viewpoint, camera);
     place_lens(request.lens, camera);

@@ -54,8 +54,8 @@ nlohmann::ordered_json to_json(const FrameTimes& times) {
 
 std::string line_of(const char* what, const FrameTimes& times) {
     const double median = quantile(times.milliseconds, 0.5);
-    return fmt::format("{:<7}{:>7.2f} ms a frame ({:.1f} frames a second), 95 % below {:.2f} ms; {} sample{} a frame, "
-                       "previews of 1/{}",
+    return fmt::format("{:<7}{:>7.2f} ms per frame ({:.1f} fps), 95 % below {:.2f} ms; {} sample{} per frame, "
+                       "previews at 1/{} of the resolution",
                        what, median, 1000 / std::max(median, 1e-9), quantile(times.milliseconds, 0.95),
                        quantile(times.samples, 0.5), quantile(times.samples, 0.5) == 1 ? "" : "s",
                        quantile(times.divisors, 0.5));

@@ -240,11 +240,11 @@ void PanelEngine::say_busy(const char* what) {
 
 RecordedPath PanelEngine::record_path(shared::PathQuery query, std::uint32_t seed) {
     if (!session_ || !applied_) {
-        throw Error("no panel is there to replay on");
+        throw Error("there is no panel to replay on");
     }
     const RenderSettings of_film = settings();
     if (resamples(of_film.integrator)) {
-        throw Error("replay takes every sample by itself, and this integrator's frames are resampled together");
+        throw Error("replay traces single samples, but this integrator resamples a frame as a whole");
     }
     const auto divisor = static_cast<std::uint32_t>(divisor_);
     query.pixel = {std::min(query.pixel.x / divisor, static_cast<std::uint32_t>(of_film.width - 1)),

@@ -41,7 +41,7 @@ VerificationLight verification_light(const PanelShot& first, const PanelShot& se
     VerificationLight light;
     if (first.correlated || second.correlated) {
         light.agreement = Agreement::correlated;
-        light.text = "restir's frames depend on one another: no running test";
+        light.text = "no running test: the frames of restir are correlated";
         return light;
     }
     if (!same_picture(a, b) || a.spp < least_verified_samples || b.spp < least_verified_samples) {
@@ -49,7 +49,7 @@ VerificationLight verification_light(const PanelShot& first, const PanelShot& se
         return light;
     }
     if (!a.standard_error || !b.standard_error) {
-        light.text = "no standard errors are kept";
+        light.text = "no running test: there are no standard errors";
         return light;
     }
     for (std::size_t channel = 0; channel < light.z.size(); ++channel) {

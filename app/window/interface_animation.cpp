@@ -63,7 +63,7 @@ void draw_animation_bar(const Theme& theme, ViewState& state, const InterfaceSta
     if (ImGui::Combo("##speed", &chosen, speed_names.data(), static_cast<int>(speed_names.size()))) {
         state.animation.speed = speeds[static_cast<std::size_t>(chosen)];
     }
-    explain("Seconds of the scene a second");
+    explain("Playback speed: scene seconds per second");
     ImGui::End();
     ImGui::PopStyleVar();
 }

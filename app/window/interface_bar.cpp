@@ -57,7 +57,7 @@ void choose_panel(const Theme& theme, const InterfaceFacts& facts, ShownState& s
         ImGui::PopFont();
         return;
     }
-    constexpr const char* help = "Which panel is seen  (P)";
+    constexpr const char* help = "Panels to show  (P)";
     if (narrow) {
         drop_down("panel", panel_names, shown.panel, theme.units(24), help, places);
     } else {
@@ -105,11 +105,11 @@ void draw_top_bar(const Theme& theme, const InterfaceFacts& facts, ViewState& st
     const bool wide = is_wide(theme, ImGui::GetIO().DisplaySize);
     choose_panel(theme, facts, state.shown, !wide, interface.places);
     ImGui::SameLine();
-    drop_down("layer", layer_names, state.shown.layer, theme.units(34), "Which layer of the picture  (L)",
+    drop_down("layer", layer_names, state.shown.layer, theme.units(34), "Layer of the picture  (L)",
               interface.places);
     ImGui::SameLine();
     drop_down("integrator", integrator_names, state.rendered.request.settings.integrator, theme.units(22),
-              "How light is found  (I)", interface.places);
+              "Integrator  (I)", interface.places);
     ImGui::SameLine(0, 0);
     ButtonsFromRight button(ImGui::GetCursorPosX());
     if (button("Keys", "Keys and mouse  (H)")) {

@@ -143,9 +143,8 @@ void draw_light(const Theme& theme, const VerificationLight& light) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(light.text.c_str());
     ImGui::PopTextWrapPos();
-    explain("The running z between the image means of both panels, which draw from different seeds: Welch's test of "
-            "the worst channel. "
-            "Below 3 they agree.");
+    explain("z of Welch's test between the image means of both panels, of the worst channel. The panels have "
+            "different seeds. Below 3 they agree.");
 }
 
 void draw_devices(const Theme& theme, const std::vector<const PanelFacts*>& panels) {

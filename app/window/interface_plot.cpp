@@ -109,13 +109,13 @@ void draw_error_plot(const Theme& theme, const InterfaceFacts& facts) {
     const ImVec2 at{corner.x + left, corner.y + theme.units(2)};
     const Axes axes = axes_of(facts);
     ImGui::Dummy({width, size.y + below + theme.units(2)});
-    explain("Over samples a pixel, from the spread of each pixel's samples. Frames of restir that go on from one "
-            "another tell none.");
+    explain("Estimated relMSE over samples per pixel, from the spread of each pixel's samples. There is none for "
+            "correlated frames of restir.");
     if (axes.empty) {
         const bool chained = std::any_of(facts.panels.begin(), facts.panels.end(), [](const PanelFacts& panel) {
             return panel.shown && panel.shot != nullptr && panel.shot->correlated;
         });
-        const char* text = chained ? "not known of restir's chains" : "not known yet";
+        const char* text = chained ? "none for correlated frames of restir" : "not known yet";
         const ImVec2 room = ImGui::CalcTextSize(text);
         ImGui::GetWindowDrawList()->AddText({corner.x + (width - room.x) / 2, corner.y + size.y / 2},
                                             packed(colors::muted), text);

@@ -22,17 +22,18 @@ bool choose(const Theme& theme, const char* setting, std::initializer_list<Enum>
 }
 
 void draw_sampling(const Theme& theme, RenderSettings& settings) {
-    slider(theme, ranges::max_depth, settings.max_depth, "Scattering events at most; 1 is emission and direct light");
+    slider(theme, ranges::max_depth, settings.max_depth,
+           "Maximum number of scattering events; 1 gives emission and direct light");
     choose(theme, "brdf", {BrdfModel::ggx, BrdfModel::blinn_phong}, settings.brdf,
-           "Microfacets of metallic-roughness materials");
+           "Microfacet model of metallic-roughness materials");
     choose(theme, "normal-maps", {NormalMaps::shading, NormalMaps::microfacet}, settings.normal_maps,
-           "Shading by the mapped normal, or facets that keep all energy");
+           "Shading by the mapped normal, or microfacets that conserve energy");
     // Not Hammersley's points: they are laid out for a number of samples that is known beforehand.
     choose(theme, "sampler", {SamplerKind::independent, SamplerKind::sobol}, settings.sampler,
-           "Where random numbers come from");
+           "Sample sequence");
     if (settings.integrator == Integrator::path) {
         choose(theme, "mis", {MisHeuristic::power, MisHeuristic::balance}, settings.mis,
-               "Weights between light and material sampling");
+               "MIS weights of light and BSDF sampling");
     }
 }
 
@@ -40,8 +41,9 @@ void draw_light(const Theme& theme, const InterfaceFacts& facts, RenderRequest& 
     const bool none = facts.scene == nullptr || facts.scene->scene->environment.kind == EnvironmentKind::none;
     ImGui::BeginDisabled(none);
     slider(theme, ranges::env_scale, request.environment_scale, "× %.3g",
-           "Factor on the light from infinity. Drop a .hdr or .exr to replace it");
-    slider(theme, ranges::env_rotate, request.environment_rotation, "%.0f°", "Turns the sky about the vertical");
+           "Factor on the environment light. Drop a .hdr or .exr to replace it");
+    slider(theme, ranges::env_rotate, request.environment_rotation, "%.0f°",
+           "Rotation of the environment about the vertical");
     ImGui::EndDisabled();
     bool shines = request.sun.has_value();
     if (setting_toggle(theme, "sun", shines, "A directional light beside the scene's own")) {
@@ -49,23 +51,24 @@ void draw_light(const Theme& theme, const InterfaceFacts& facts, RenderRequest& 
     }
     if (request.sun) {
         slider(theme, ranges::sun_azimuth, request.sun->azimuth, "%.0f°",
-               "First of its numbers. Clockwise from above, from the middle of the sky");
+               "Azimuth, first number of --sun: clockwise from above, from the middle of the environment");
         slider(theme, ranges::sun_elevation, request.sun->elevation, "%.0f°",
-               "Second of its numbers. Above the horizon");
-        slider(theme, ranges::sun_irradiance, request.sun->irradiance, "%.3g W/m²", "Third of its numbers");
+               "Elevation, second number of --sun: above the horizon");
+        slider(theme, ranges::sun_irradiance, request.sun->irradiance, "%.3g W/m²",
+               "Irradiance, third number of --sun");
     }
 }
 
 void draw_display(const Theme& theme, ShownState& shown) {
-    slider(theme, ranges::exposure, shown.exposure, "%+.2f EV", "Powers of two  ( [ and ] )");
+    slider(theme, ranges::exposure, shown.exposure, "%+.2f EV", "Exposure in powers of two  ( [ and ] )");
     setting_choice(theme, "tonemap",
                    {ToneMap::None, ToneMap::Exponential, ToneMap::Uncharted2, ToneMap::Aces, ToneMap::PbrNeutral},
-                   tonemap_name, shown.tonemap, "From radiance to display  (T)");
+                   tonemap_name, shown.tonemap, "Tone mapping from radiance to display  (T)");
     const bool colored =
         shown.layer == ShownLayer::radiance || shown.layer == ShownLayer::albedo || shown.layer == ShownLayer::normal;
     if (!colored || shown.panel == ShownPanel::difference) {
         bool found = shown.layer_scale == 0;
-        if (toggle(theme, "Auto scale", found, "What is shown as full is found from the picture")) {
+        if (toggle(theme, "Auto scale", found, "Derive the value shown at full brightness from the picture")) {
             shown.layer_scale = found ? 0 : 1;
         }
         if (!found) {
@@ -97,18 +100,18 @@ void draw_camera(const Theme& theme, const InterfaceFacts& facts, ViewState& sta
                                 : std::max(glm::length(facts.scene->bounds.hi - facts.scene->bounds.lo), 1e-6);
     const double distance = glm::length(state.pivot - glm::dvec3(camera.camera_to_world[3]));
     if (camera.orthographic) {
-        slider(theme, ranges::view_height, camera.orthographic_height, "%.3g m", "Of the whole view",
+        slider(theme, ranges::view_height, camera.orthographic_height, "%.3g m", "Height of the whole view",
                NumberRange{diagonal * 1e-3, diagonal * 10});
     } else {
         double degrees = camera.vertical_fov * 180 / glm::pi<double>();
         if (slider(theme, ranges::fov, degrees, "%.1f°", "Vertical field of view")) {
             set_field_of_view(camera, degrees * glm::pi<double>() / 180, distance);
         }
-        slider(theme, ranges::aperture, camera.lens.radius, "%.4g m", "Radius of the lens; 0 is a pinhole",
+        slider(theme, ranges::aperture, camera.lens.radius, "%.4g m", "Lens radius; 0 is a pinhole",
                NumberRange{0, diagonal * 0.1});
         ImGui::BeginDisabled(camera.lens.radius <= 0);
         slider(theme, ranges::focus, camera.lens.focus_distance, "%.3g m",
-               "Distance in focus. F focuses on what is under the pointer",
+               "Focus distance. F focuses on the point under the pointer",
                NumberRange{diagonal * 1e-3, diagonal * 10});
         ImGui::EndDisabled();
     }
@@ -116,34 +119,36 @@ void draw_camera(const Theme& theme, const InterfaceFacts& facts, ViewState& sta
     if (ImGui::Button("Reset camera", {-1, 0})) {
         interface.wishes.reset_camera = true;
     }
-    explain("Back to the scene's own  (R)");
+    explain("Reset to the scene's camera  (R)");
 }
 
 }  // namespace
 
 void draw_resampling(const Theme& theme, ResamplingSettings& resampling, bool reuses) {
-    slider(theme, ranges::candidates, resampling.light_candidates, "Candidates from the lights, a pixel and frame");
-    slider(theme, ranges::near_share, resampling.near_share, "%.2f", "Of them, picked by distance too");
-    setting_toggle(theme, "bsdf-candidate", resampling.bsdf_candidate, "One more candidate, from the material");
+    slider(theme, ranges::candidates, resampling.light_candidates, "Light candidates per pixel and frame");
+    slider(theme, ranges::near_share, resampling.near_share, "%.2f",
+           "Fraction of the candidates picked by power and distance");
+    setting_toggle(theme, "bsdf-candidate", resampling.bsdf_candidate, "Add a candidate from BSDF sampling");
     choose(
         theme, "reuse-mis",
         {ResamplingMis::pairwise, ResamplingMis::balance, ResamplingMis::one_over_z, ResamplingMis::biased_one_over_m},
-        resampling.mis, "Weights between what is resampled");
+        resampling.mis, "MIS weights of reuse");
     choose(theme, "reuse-visibility",
            {ResamplingVisibility::shading, ResamplingVisibility::target, ResamplingVisibility::biased_initial,
             ResamplingVisibility::biased_final},
-           resampling.visibility, "Where shadow rays count");
+           resampling.visibility, "Where visibility is tested");
     if (!reuses) {
         return;
     }
-    setting_toggle(theme, "temporal", resampling.temporal, "Reuse what the frame before has found");
+    setting_toggle(theme, "temporal", resampling.temporal, "Reuse the reservoirs of the previous frame");
     ImGui::BeginDisabled(!resampling.temporal);
-    slider(theme, ranges::confidence_cap, resampling.confidence_cap, "%.3g", "How much the past may count, in frames");
+    slider(theme, ranges::confidence_cap, resampling.confidence_cap, "%.3g",
+           "Cap on the confidence of the previous frame, in frames");
     ImGui::EndDisabled();
-    slider(theme, ranges::spatial_passes, resampling.spatial_passes, "Passes that reuse what neighbours have found");
+    slider(theme, ranges::spatial_passes, resampling.spatial_passes, "Number of spatial reuse passes");
     ImGui::BeginDisabled(resampling.spatial_passes == 0);
-    slider(theme, ranges::neighbors, resampling.neighbors, "Of each such pass");
-    slider(theme, ranges::reuse_radius, resampling.radius, "%.3g px", "They lie within");
+    slider(theme, ranges::neighbors, resampling.neighbors, "Neighbours per spatial pass");
+    slider(theme, ranges::reuse_radius, resampling.radius, "%.3g px", "Radius of the disk of these neighbours");
     ImGui::EndDisabled();
 }
 

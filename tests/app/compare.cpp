@@ -81,7 +81,7 @@ TEST_CASE("pictures of one seed are told apart from independent ones", "[app]") 
     rounded.color.data[100] *= 1.000001F;
     write_exr(folder.file("rounded.exr"), rounded);
     const ProcessResult close = run_diptych(folder, {"compare", a, folder.file("rounded.exr")});
-    CHECK(contains(close.out, "what is left is rounding"));
+    CHECK(contains(close.out, "the remaining difference is rounding"));
     const ProcessResult same = run_diptych(folder, {"compare", a, a});
     CHECK(contains(same.out, "identical"));
 }

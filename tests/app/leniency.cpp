@@ -154,7 +154,7 @@ TEST_CASE("the camera option takes a name before an index", "[app]") {
 TEST_CASE("a camera that the user places is not said to frame the scene", "[app]") {
     const TemporaryFolder folder;
     const std::string bare = write_triangle(folder, R"([{"mesh":0}])", emissive);
-    CHECK(contains(render_leniently(folder, bare).err, "one that frames it"));
+    CHECK(contains(render_leniently(folder, bare).err, "a default camera that frames it"));
     CHECK_FALSE(contains(render_leniently(folder, bare, {"--eye", "0,0,3", "--look-at", "0,0,0"}).err, "frames it"));
 }
 

@@ -29,7 +29,7 @@ TEST_CASE("the version names the commit", "[app]") {
 
 TEST_CASE("bad usage is refused in one line with a hint", "[app]") {
     const TemporaryFolder folder;
-    check_refusal(run_diptych(folder, {}), 2, {"wants a command", "diptych --help"});
+    check_refusal(run_diptych(folder, {}), 2, {"no command given", "diptych --help"});
     check_refusal(run_diptych(folder, {"rendr", "a.gltf"}), 2, {"no command 'rendr'", "did you mean render?"});
     check_refusal(run_diptych(folder, {"frobnicate"}), 2, {"no command 'frobnicate'", "see diptych --help"});
     check_refusal(run_diptych(folder, {"render", "a.gltf", "-o", "a.exr", "--integratr", "path"}), 2,
@@ -37,13 +37,13 @@ TEST_CASE("bad usage is refused in one line with a hint", "[app]") {
     check_refusal(run_diptych(folder, {"render", "a.gltf"}), 2, {"--output", "see diptych render --help"});
     check_refusal(run_diptych(folder, {"render"}), 2, {"scene", "required"});
     check_refusal(run_diptych(folder, {"compare", "a.exr"}), 2, {"required"});
-    check_refusal(run_diptych(folder, {"info"}), 2, {"wants a scene, or --devices"});
+    check_refusal(run_diptych(folder, {"info"}), 2, {"needs a scene, or --devices"});
     check_refusal(run_diptych(folder, {"bench", "a.gltf", "--frames", "2"}), 2, {"--frames"});
 }
 
 TEST_CASE("generate refuses what it cannot do", "[app]") {
     const TemporaryFolder folder;
-    check_refusal(run_diptych(folder, {"generate"}), 2, {"wants the NAME", "--list"});
+    check_refusal(run_diptych(folder, {"generate"}), 2, {"needs the NAME", "--list"});
     check_refusal(run_diptych(folder, {"generate", "cornell"}), 2, {"-o FILE"});
     check_refusal(run_diptych(folder, {"generate", "cornell", "-o", folder.file("a.obj")}), 2,
                   {"a.obj", ".gltf or .glb"});

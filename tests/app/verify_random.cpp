@@ -136,12 +136,12 @@ TEST_CASE("verify refuses what does not go with random scenes", "[app]") {
         CHECK(result.exit_code == 2);
         CHECK(contains(result.err, reason));
     };
-    refused({"verify", "--random", "1", "--spp", "8"}, "--spp: does not go with --random");
-    refused({"verify", "scene.gltf", "--random", "1"}, "scene: does not go with --random");
+    refused({"verify", "--random", "1", "--spp", "8"}, "--spp: does not work with --random");
+    refused({"verify", "scene.gltf", "--random", "1"}, "scene: does not work with --random");
     refused({"verify", "--random", "1", "--backends", "oracle"}, "--random compares cpu and vulkan");
-    refused({"verify"}, "wants a scene");
+    refused({"verify"}, "needs a scene");
     refused({"verify", "scene.gltf", "--no-shrink"}, "--random");
     refused({"verify", "scene.gltf", "--moving"}, "--random");
-    refused({"generate", "cornell", "-o", folder.file("a.gltf"), "--moving"}, "--moving is for random alone");
-    refused({"generate", "random", "-o", folder.file("a.gltf"), "--count", "3"}, "--count is for many-lights alone");
+    refused({"generate", "cornell", "-o", folder.file("a.gltf"), "--moving"}, "--moving works only with random");
+    refused({"generate", "random", "-o", folder.file("a.gltf"), "--count", "3"}, "--count works only with many-lights");
 }

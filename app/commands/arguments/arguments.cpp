@@ -29,7 +29,8 @@ int parse_side(const std::string& text, const std::string& side) {
     const char* end = side.data() + side.size();
     const auto [stop, failure] = std::from_chars(side.data(), end, value);
     if (failure != std::errc() || stop != end || value < 1 || value > largest_film_side) {
-        refuse_size(text, fmt::format("wants WIDTHxHEIGHT or a height, each from 1 to {}", largest_film_side));
+        refuse_size(text, fmt::format("expected WIDTHxHEIGHT or a height in pixels, each from 1 to {}",
+                                      largest_film_side));
     }
     return value;
 }
@@ -76,17 +77,20 @@ std::string option_of(const SettingRange& range) {
 }
 
 void add_display_options(CLI::App& command, double& exposure, std::string& tonemap, const char* of) {
-    command.add_option(option_of(ranges::exposure), exposure, fmt::format("EV, powers of two; {}", of))
+    command.add_option(option_of(ranges::exposure), exposure, fmt::format("Exposure in EV (a factor of 2^EV), {}", of))
         ->check(accepted_by(ranges::exposure))
         ->capture_default_str();
-    command.add_option("--tonemap", tonemap, fmt::format("none, exponential, uncharted2, aces or pbr-neutral; {}", of))
+    command
+        .add_option("--tonemap", tonemap,
+                    fmt::format("Tone mapping, {}: none, exponential, uncharted2, aces or pbr-neutral", of))
         ->capture_default_str();
 }
 
 void add_integrator_option(CLI::App& command, RenderArguments& arguments) {
     arguments.panel_options.push_back(
         command
-            .add_option("--integrator", arguments.integrator, "brdf, direct, path, ris or restir; not for the oracle")
+            .add_option("--integrator", arguments.integrator,
+                        "Integrator: brdf, direct, path, ris or restir; the oracle has none")
             ->capture_default_str());
 }
 
@@ -95,55 +99,57 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
     command.add_option("--brdf", arguments.brdf, "Microfacet model: ggx or blinn-phong")->capture_default_str();
     command
         .add_option("--normal-maps", arguments.normal_maps,
-                    "What a normal map does: shading by its normal, or microfacet (facets that keep all energy)")
+                    "Normal mapping: shading (tilts the shading normal) or microfacet (facets that conserve energy)")
         ->capture_default_str();
     arguments.panel_options.push_back(
-        command.add_option("--sampler", arguments.sampler, "independent, hammersley or sobol")->capture_default_str());
+        command.add_option("--sampler", arguments.sampler, "Sample sequence: independent, hammersley or sobol")
+            ->capture_default_str());
     arguments.panel_options.push_back(
-        command.add_option("--mis", arguments.mis, "Weights of path: power or balance")->capture_default_str());
+        command.add_option("--mis", arguments.mis, "MIS heuristic of path: power or balance")->capture_default_str());
     command
         .add_option(option_of(ranges::max_depth), request.settings.max_depth,
-                    "Scattering events; 1 is emission and direct light")
+                    "Maximum number of scattering events; 1 gives emission and direct light")
         ->check(accepted_by(ranges::max_depth))
         ->capture_default_str();
     command.add_option("--size", arguments.size,
-                       "WIDTHxHEIGHT in pixels, or a height: the camera's aspect gives the width");
-    command.add_option("--camera", request.camera, "Camera by name or index; the first by default");
+                       "Image size, WIDTHxHEIGHT in pixels; a height alone takes the width from the camera's aspect");
+    command.add_option("--camera", request.camera, "Camera, by name or index; default: the first");
     command.add_option("--clip", request.clip,
-                       "Animation to play, by name or index (see info); all by default, and of two for one node the first");
+                       "Animation to play, by name or index (see info); default: all, the first one for each node");
     command.add_option("--env", request.environment,
-                       "Light from infinity: none, neutral, R,G,B radiance, or a .hdr or .exr panorama, of which FILE:LAYER is one "
-                       "layer or part; neutral by default where the scene would be black");
+                       "Environment: none, neutral, R,G,B radiance, or a .hdr or .exr panorama (or FILE:LAYER); "
+                       "default: neutral if the scene would be black");
     const auto add = [&](const SettingRange& range, auto& value, const char* help) {
         command.add_option(option_of(range), value, help)->check(accepted_by(range));
     };
-    add(ranges::env_scale, request.environment_scale, "Factor on that light");
-    add(ranges::env_rotate, request.environment_rotation, "Degrees it is turned about +Y");
-    add(ranges::aperture, request.lens.radius, "Radius of the lens, metres");
-    add(ranges::focus, request.lens.focus_distance, "Distance in focus, metres");
+    add(ranges::env_scale, request.environment_scale, "Factor on the radiance of the environment");
+    add(ranges::env_rotate, request.environment_rotation, "Rotation of the environment about +Y, degrees");
+    add(ranges::aperture, request.lens.radius, "Lens radius, metres; 0 is a pinhole");
+    add(ranges::focus, request.lens.focus_distance, "Focus distance, metres");
     add_viewpoint_options(command, arguments);
     command
         .add_option("--ignore-extension", request.ignored_extensions,
-                    "Load the file without this glTF extension, though it requires it; may be repeated")
+                    "Ignore this glTF extension, even if the file requires it; may be repeated")
         ->type_name("NAME")
         ->allow_extra_args(false);
     command.add_flag("--allow-external", request.allow_external,
-                     "Read buffers and textures that lie outside the scene file's folder too");
+                     "Also read buffers and textures outside the scene file's folder");
     command.add_flag("--strict", request.strict,
-                     "Refuse a scene file with faults or parts that cannot be shown, instead of a warning");
-    arguments.panel_options.push_back(command.add_flag("--generic", request.settings.generic,
-                                                       "Leave nothing out that the scene does not need; same image"));
+                     "Refuse a scene file with faults or with parts that cannot be shown, instead of warning");
+    arguments.panel_options.push_back(
+        command.add_flag("--generic", request.settings.generic,
+                         "Also keep the features that the scene does not need; the image is the same"));
     add_resampling_options(command, arguments);
 }
 
 void add_backend_options(CLI::App& command, RenderArguments& arguments) {
     RenderRequest& request = arguments.request;
-    command.add_option("--backend", request.backend, "cpu, vulkan or oracle")->capture_default_str();
-    command.add_option("--device", request.device, "Vulkan device by index or name; the best by default");
-    command.add_option("--threads", request.threads, "Threads of cpu or oracle; one a core by default")
+    command.add_option("--backend", request.backend, "Backend: cpu, vulkan or oracle")->capture_default_str();
+    command.add_option("--device", request.device, "Vulkan device, by index or name; default: the best");
+    command.add_option("--threads", request.threads, "Threads of cpu or oracle; default: one per core")
         ->check(CLI::Range(1, 4096));
     command.add_flag("--validation", request.validation,
-                     "Run Vulkan's validation layers; exit 1 if they have anything to say");
+                     "Run Vulkan's validation layers; exit code 1 if they report anything");
     // For measuring what it gains (docs/decisions/0010-groups-of-instances.md): not in the help.
     command.add_flag("--group-instances,!--no-group-instances", request.group_instances)->group("");
 }
@@ -152,7 +158,7 @@ void add_oracle_option(CLI::App& command, RenderArguments& arguments) {
     arguments.oracle_option =
         command
             .add_option("--oracle-mode", arguments.request.oracle_mode,
-                        "How the oracle, which has no --integrator, finds light: mis, bsdf, hemisphere or area")
+                        "Sampling strategy of the oracle: mis, bsdf, hemisphere or area; it has no --integrator")
             ->capture_default_str();
 }
 
@@ -160,13 +166,13 @@ void resolve_oracle_mode(const RenderArguments& arguments) {
     oracle_mode_from_name(arguments.request.oracle_mode);
     if (arguments.request.backend != "oracle") {
         if (arguments.oracle_option->count() > 0) {
-            throw Error("--oracle-mode: goes with --backend oracle");
+            throw Error("--oracle-mode: works only with --backend oracle");
         }
         return;
     }
     for (const CLI::Option* option : arguments.panel_options) {
         if (option->count() > 0) {
-            throw Error(fmt::format("{}: means nothing to --backend oracle, whose one choice is --oracle-mode",
+            throw Error(fmt::format("{}: does not apply to --backend oracle, which has only --oracle-mode",
                                     option->get_name()));
         }
     }
@@ -186,13 +192,13 @@ void resolve_names(RenderArguments& arguments) {
     }
     const bool cpu = request.backend != "vulkan";
     if (cpu && !request.device.empty()) {
-        throw Error("--device: goes with --backend vulkan");
+        throw Error("--device: works only with --backend vulkan");
     }
     if (cpu && request.validation) {
-        throw Error("--validation: goes with --backend vulkan");
+        throw Error("--validation: works only with --backend vulkan");
     }
     if (!cpu && request.threads != 0) {
-        throw Error("--threads: goes with --backend cpu or oracle");
+        throw Error("--threads: works only with --backend cpu or oracle");
     }
     if (!arguments.size.empty()) {
         resolve_size(arguments, Camera{});

@@ -11,11 +11,11 @@
 namespace diptych::core::app {
 
 void add_pair_options(CLI::App& command, PairArguments& pair) {
-    command.add_option("--backends", pair.backends, "Those to compare: cpu, vulkan")
+    command.add_option("--backends", pair.backends, "Backends, comma-separated: cpu, vulkan")
         ->delimiter(',')
         ->capture_default_str();
-    command.add_option("--device", pair.device, "Vulkan device by index or name; the best by default");
-    command.add_option("--threads", pair.threads, "CPU threads; one a core by default")->check(CLI::Range(1, 4096));
+    command.add_option("--device", pair.device, "Vulkan device, by index or name; default: the best");
+    command.add_option("--threads", pair.threads, "CPU threads; default: one per core")->check(CLI::Range(1, 4096));
     command.add_flag("--validation", pair.validation, "Run Vulkan's validation layers");
 }
 
@@ -31,10 +31,11 @@ void check_pair(const PairArguments& pair) {
         }
     }
     if (!has("vulkan") && (!pair.device.empty() || pair.validation)) {
-        throw Error(fmt::format("{}: goes with the backend vulkan", pair.validation ? "--validation" : "--device"));
+        throw Error(
+            fmt::format("{}: works only with the backend vulkan", pair.validation ? "--validation" : "--device"));
     }
     if (!has("cpu") && pair.threads != 0) {
-        throw Error("--threads: goes with the backend cpu");
+        throw Error("--threads: works only with the backend cpu");
     }
 }
 

@@ -28,7 +28,7 @@ CLI::Option* add_triple(CLI::App& command, const char* name, const char* type, c
 
 Sun sun_of(const glm::dvec3& numbers) {
     if (!ranges::sun_elevation.accepted.holds(numbers.y) || !ranges::sun_irradiance.accepted.holds(numbers.z)) {
-        throw Error(fmt::format("--sun {},{},{}: wants an elevation from -90 to 90 degrees and an irradiance from 0 up",
+        throw Error(fmt::format("--sun {},{},{}: needs an elevation from -90 to 90 degrees and an irradiance from 0 up",
                                 numbers.x, numbers.y, numbers.z));
     }
     return {.azimuth = numbers.x, .elevation = numbers.y, .irradiance = numbers.z};
@@ -39,21 +39,21 @@ Sun sun_of(const glm::dvec3& numbers) {
 void add_viewpoint_options(CLI::App& command, RenderArguments& arguments) {
     RenderRequest& request = arguments.request;
     Viewpoint& viewpoint = request.viewpoint;
-    add_triple(command, "--eye", "X,Y,Z", "Place of the camera, metres; with --look-at",
+    add_triple(command, "--eye", "X,Y,Z", "Camera position, metres; use with --look-at",
                [&](const glm::dvec3& point) { viewpoint.eye = point; });
-    add_triple(command, "--look-at", "X,Y,Z", "The point it looks at",
+    add_triple(command, "--look-at", "X,Y,Z", "Point that the camera looks at, metres",
                [&](const glm::dvec3& point) { viewpoint.look_at = point; });
-    add_triple(command, "--up", "X,Y,Z", "What is up in the picture; 0,1,0 by default",
+    add_triple(command, "--up", "X,Y,Z", "Up direction of the picture; default: 0,1,0",
                [&](const glm::dvec3& direction) { viewpoint.up = direction; });
     command
         .add_option(option_of(ranges::fov), viewpoint.fov, "Vertical field of view of a perspective camera, degrees")
         ->check(accepted_by(ranges::fov));
     command
         .add_option(option_of(ranges::view_height), viewpoint.view_height,
-                    "Height of the view of an orthographic camera, metres")
+                    "Height of an orthographic camera's view, metres")
         ->check(accepted_by(ranges::view_height));
     add_triple(command, "--sun", "AZIMUTH,ELEVATION,IRRADIANCE",
-               "A directional light: degrees from -Z toward +X, degrees above the horizon, W/m^2",
+               "Directional light: azimuth from -Z toward +X and elevation in degrees, irradiance in W/m^2",
                [&](const glm::dvec3& numbers) { request.sun = sun_of(numbers); });
 }
 

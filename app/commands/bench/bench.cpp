@@ -23,7 +23,8 @@ constexpr const char* bench_examples = R"(Examples:
   diptych bench cornell.gltf --backend cpu
   diptych bench street.glb --backend vulkan --size 1920x1080 --integrators brdf,path --frames 20 --json
   diptych bench street.glb --backend vulkan --integrators direct,ris,restir --max-depth 1
-Medians over the frames; restir's frames follow one another. The integrators take turns, so that all ratios come from one run under the same conditions.)";
+Each figure is the median of the frames. The frames of restir reuse the previous one. The integrators take turns, so
+that all are measured under the same conditions.)";
 
 struct BenchOptions {
     RenderArguments arguments;
@@ -106,7 +107,7 @@ int run_bench(BenchOptions options) {
     resolve_names(options.arguments);
     const RenderRequest& request = options.arguments.request;
     if (request.backend == "oracle") {
-        throw Error("--backend oracle: bench measures the panels, cpu and vulkan");
+        throw Error("--backend oracle: bench measures only cpu and vulkan");
     }
     const BenchSettings settings = settings_of(options);
     refuse_idle_resampling_options(
@@ -138,20 +139,20 @@ void add_bench(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("bench", "Measure how fast a backend renders a scene");
     auto options = std::make_shared<BenchOptions>();
     command->add_option("scene", options->arguments.request.scene, ".gltf or .glb file")->required();
-    command->add_option("--integrators", options->integrators, "Those to measure")
+    command->add_option("--integrators", options->integrators, "Integrators to measure, comma-separated")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("--spp", options->spp, "Samples a pixel in one frame")
+    command->add_option("--spp", options->spp, "Samples per pixel of each frame")
         ->check(CLI::Range(1U, 65536U))
         ->capture_default_str();
-    command->add_option("--frames", options->frames, "Repeats, of which the median counts")
+    command->add_option("--frames", options->frames, "Frames to measure; the median counts")
         ->check(CLI::Range(5, 10000))
         ->capture_default_str();
-    command->add_option("--seed", options->arguments.request.settings.seed, "Another seed, other noise")
+    command->add_option("--seed", options->arguments.request.settings.seed, "Seed of the random numbers")
         ->capture_default_str();
     add_scene_options(*command, options->arguments);
     add_backend_options(*command, options->arguments);
-    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(bench_examples);
     command->callback([options, &run] { run = [options] { return run_bench(*options); }; });
 }

@@ -27,11 +27,12 @@ constexpr const char* compare_examples = R"(Examples:
   diptych compare cpu.exr vulkan.exr --max-z 4 --max-relmse 0.01
   diptych compare picture.exr:albedo other.exr:beauty
   diptych compare picture.exr reference.exr --minus picture-0.exr,reference-0.exr
-z is the difference of the means over its standard error, which EXR files carry in a layer; it means something only where
-the two were rendered with different seeds. --minus takes something off both first: renders of --max-depth 0 with their seeds and
-samples leave the scattered light, without the noise of lamps that are seen directly. FILE:LAYER is one layer or part of an EXR.
-Pictures are what their display windows show; of crops, the pixels are compared that both files have data for. The PNG shows A, B,
-and a heatmap of their relative difference.)";
+z is the difference of the image means divided by its standard error. EXR files hold the standard errors in a layer.
+z has a meaning only if the images were rendered with different seeds.
+--minus subtracts one image from A and one from B first. Renders with --max-depth 0 and otherwise equal settings
+leave only the scattered light, without the noise of directly visible lamps.
+FILE:LAYER selects one layer or part of an EXR. The display windows are compared; of a crop, only the pixels with
+data in both files. The PNG shows A, B, and a heatmap of their relative difference.)";
 
 struct CompareOptions {
     std::string a;
@@ -76,7 +77,7 @@ std::string failure(const CompareOptions& options, const Difference& difference)
     }
     const double z = largest_z(difference);
     if (options.max_z && !(z <= *options.max_z)) {
-        return std::isnan(z) ? "z is unknown: some standard errors are"
+        return std::isnan(z) ? "z is unknown, because some standard errors are unknown"
                              : fmt::format("|z| {:.3g} exceeds {:.3g}", z, *options.max_z);
     }
     if (options.max_relmse && !(difference.relmse <= *options.max_relmse)) {
@@ -113,7 +114,7 @@ LayeredImage read_named(const std::string& text) {
     const PictureName name = picture_name(text);
     LayeredImage image = read_image(name.file, name.layer);
     if (!image.layer.empty()) {
-        report_warning(fmt::format("{}: the picture is its layer '{}'", text, image.layer));
+        report_warning(fmt::format("{}: the colour is its layer '{}'", text, image.layer));
     }
     return image;
 }
@@ -172,7 +173,7 @@ Pictures read_pictures(const CompareOptions& options) {
     if (common.width == 0 || common.height == 0) {
         throw Error(fmt::format("{} and {}: no pixel of their display window has data in both", options.a, options.b));
     }
-    report_warning(fmt::format("{} and {}: compared over {}x{} pixels from {},{}, where both have data, of {}x{}",
+    report_warning(fmt::format("{} and {}: compared only where both have data: {}x{} pixels from {},{}, of {}x{}",
                                options.a, options.b, common.width, common.height, common.x, common.y,
                                pictures.a.display.width, pictures.a.display.height));
     crop(common, pictures.a);
@@ -194,7 +195,7 @@ int run_compare(const CompareOptions& options) {
     if (!options.output.empty()) {
         check_writable(options.output);
         if (image_format(options.output) != ImageFormat::Png) {
-            throw Error(fmt::format("{}: the figure is written as .png", options.output));
+            throw Error(fmt::format("{}: the figure must be a .png file", options.output));
         }
     }
     tonemap_from_name(options.tonemap);
@@ -209,16 +210,16 @@ int run_compare(const CompareOptions& options) {
     const Verdict verdict = judge(difference, a, b);
     if (options.max_z && verdict.correlated) {
         throw Error(
-            fmt::format("{} and {}: --max-z wants pixels that know nothing of one another, and those of restir do: use "
-                        "verify, whose runs are independent",
+            fmt::format("{} and {}: --max-z needs independent pixels, and those of restir are correlated; use verify, "
+                        "whose runs are independent",
                         options.a, options.b));
     }
     if (options.max_z && !(a.standard_error && b.standard_error)) {
-        throw Error(fmt::format("{}: --max-z wants a layer of standard errors, and there is none",
+        throw Error(fmt::format("{}: --max-z needs a layer of standard errors, and there is none",
                                 a.standard_error ? options.b : options.a));
     }
     if (verdict.same_random_numbers) {
-        report_warning(fmt::format("{} and {}: rendered with one seed, so their noise is shared and z means nothing",
+        report_warning(fmt::format("{} and {}: rendered with the same seed, so their noise is correlated; ignore z",
                                    options.a, options.b));
     }
     if (difference.nonfinite > 0) {
@@ -252,22 +253,25 @@ int run_compare(const CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("compare", "Say how far two images differ, and whether that is noise");
+    CLI::App* command = app.add_subcommand("compare", "Measure how much two images differ, and whether that is noise");
     auto options = std::make_shared<CompareOptions>();
-    command->add_option("a", options->a, "Image")->required();
-    command->add_option("b", options->b, "Image that it is held against")->required();
-    command->add_option("--minus", options->minus, "Two images, taken off A and B before they are compared")
+    command->add_option("a", options->a, "First image")->required();
+    command->add_option("b", options->b, "Second image, the reference")->required();
+    command->add_option("--minus", options->minus,
+                        "Two images to subtract before the comparison, one from A and one from B")
         ->delimiter(',')
         ->expected(2);
-    command->add_option("-o,--output", options->output, "Figure to write, .png");
-    add_display_options(*command, options->exposure, options->tonemap, "of the figure");
-    command->add_option("--heat-max", options->heat_max, "Relative difference at the heatmap's hot end")
+    command->add_option("-o,--output", options->output,
+                        "Figure to write (.png): A, B and a heatmap of their relative difference");
+    add_display_options(*command, options->exposure, options->tonemap, "for the figure");
+    command->add_option("--heat-max", options->heat_max,
+                        "Relative difference at the hot end of the heatmap; default: its 99th percentile")
         ->check(positive_number());
-    command->add_option("--max-z", options->max_z, "Exit 1 where |z| is larger in a channel")
+    command->add_option("--max-z", options->max_z, "Exit code 1 if |z| of a channel exceeds this value")
         ->check(non_negative_number());
-    command->add_option("--max-relmse", options->max_relmse, "Exit 1 where relMSE is larger")
+    command->add_option("--max-relmse", options->max_relmse, "Exit code 1 if the relMSE exceeds this value")
         ->check(non_negative_number());
-    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(compare_examples);
     command->callback([options, &run] { run = [options] { return run_compare(*options); }; });
 }

@@ -50,19 +50,19 @@ Verdict judge(const Difference& difference, const LayeredImage& a, const Layered
     Verdict verdict;
     verdict.correlated = is_correlated(a) || is_correlated(b);
     verdict.same_random_numbers = same_entry(a, b, "seed") && same_entry(a, b, "sampler");
-    const std::string apart = fmt::format("The means differ by at most {:.2g} %, {:.2f} % of the pixels agree to 0.1 %",
+    const std::string apart = fmt::format("The means differ by at most {:.2g} %; {:.2f} % of the pixels agree to 0.1 %",
                                           mean_difference_percent(difference), 100 * difference.fraction_equal);
     const double z = largest_z(difference);
     if (difference.mse == 0 && difference.nonfinite == 0) {
         verdict.text = "The two pictures are identical.";
     } else if (verdict.same_random_numbers && difference.fraction_equal >= rounding_share) {
-        verdict.text = apart + ": both drew the same random numbers, and what is left is rounding.";
+        verdict.text = apart + "; both used the same random numbers, and the remaining difference is rounding.";
     } else if (verdict.same_random_numbers) {
-        verdict.text = apart + "; both drew the same random numbers, so whether that is noise cannot be told.";
+        verdict.text = apart + "; both used the same random numbers, so no test can tell whether that is noise.";
     } else if (verdict.correlated) {
-        verdict.text = apart + "; restir's samples are correlated, so whether that is noise is for verify to tell.";
+        verdict.text = apart + "; the samples of restir are correlated, so only verify can tell whether that is noise.";
     } else if (std::isnan(z)) {
-        verdict.text = apart + "; without standard errors, whether that is noise cannot be told.";
+        verdict.text = apart + "; without standard errors, no test can tell whether that is noise.";
     } else {
         verdict.noise = z < noise_limit;
         verdict.text =

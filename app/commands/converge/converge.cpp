@@ -32,9 +32,10 @@ constexpr const char* converge_examples = R"(Examples:
   diptych converge scene.glb --methods cpu:path,vulkan:path,vulkan:restir --time 2 --size 640x360 -o report
   diptych converge cornell.gltf --methods cpu:path:independent,cpu:path:hammersley,cpu:path:sobol --spp-max 1024 -o samplers
   diptych converge scene.glb --methods vulkan:path --reference truth.exr --spp-max 4096 --runs 32 --json -o report
-Renders every method --runs times, each run with a seed of its own, and measures it against the reference at 1, 2, 4, 8... samples a
-pixel: error over samples and over time, its slope, what of it is bias, the time to a target. Open index.html of the folder when it is
-done. Ctrl-C stops; the same command goes on from there. What the files hold is in docs/converge.md.)";
+Renders each method --runs times, each run with its own seed, and compares it with the reference at 1, 2, 4, 8...
+samples per pixel. The report shows the error over samples and time, its slope, its bias, and the time to a target
+error. Open index.html in the output folder when it is done. Ctrl-C stops; the same command continues from there.
+docs/converge.md describes the files.)";
 
 /// Writes what the results so far say into the folder; all of it as JSON.
 nlohmann::ordered_json write_report(const ConvergeOptions& options, const std::vector<Method>& methods,
@@ -131,58 +132,56 @@ std::string typed(const CLI::App& command) {
 
 void add_converge(CLI::App& app, Run& run) {
     CLI::App* command =
-        app.add_subcommand("converge", "Measure how the error falls over samples and time, and report it");
+        app.add_subcommand("converge", "Measure how the error falls with samples and time, and write a report");
     auto options = std::make_shared<ConvergeOptions>();
     RenderRequest& request = options->arguments.request;
     command->add_option("scene", request.scene, ".gltf or .glb file")->required();
     command
         ->add_option("--methods", options->methods,
-                     "Comma-separated BACKEND:INTEGRATOR[:SAMPLER], such as vulkan:path or cpu:direct:independent; or "
-                     "oracle[:MODE]")
+                     "Methods, comma-separated: BACKEND:INTEGRATOR[:SAMPLER], such as vulkan:path, or oracle[:MODE]")
         ->delimiter(',')
         ->capture_default_str();
     CLI::Option* spp =
-        command->add_option("--spp-max", options->spp_max, "Most samples a pixel of a run; a power of two, or less")
+        command->add_option("--spp-max", options->spp_max, "Samples per pixel of a run, rounded down to a power of two")
             ->check(CLI::Range(1U, 1U << 24U))
             ->capture_default_str();
     command
         ->add_option("--time", options->seconds,
-                     "Instead: as many samples, a power of two, as each method renders in so many seconds")
+                     "Seconds per run, replaces --spp-max: a method renders the power of two of samples that fits")
         ->check(CLI::Range(0.001, 1e9))
         ->check(finite_number())
         ->excludes(spp);
-    command->add_option("--runs", options->runs, "Renders of each method, with seeds of their own")
+    command->add_option("--runs", options->runs, "Runs of each method, each with its own seed")
         ->check(CLI::Range(2, 4096))
         ->capture_default_str();
     command
         ->add_option("--reference", options->reference,
-                     "A picture; or BACKEND:INTEGRATOR[:SAMPLER], to be rendered with 16 times the samples; auto: "
-                     "`path` where it is "
-                     "not itself measured")
+                     "Image file, or BACKEND:INTEGRATOR[:SAMPLER] to render with 16 times the samples; auto: "
+                     "path, if it is not measured itself")
         ->capture_default_str();
     command
         ->add_option("--target-relmse", options->target_relmse,
-                     "Tell the time until this relMSE; else what half of the methods reach")
+                     "relMSE to report the time to; default: the median of the methods' last relMSE")
         ->check(positive_number());
     command
         ->add_option("--picture-time", options->picture_seconds,
-                     "Seconds of rendering that the pictures compare; by default the shortest of the methods' runs")
+                     "Rendering time of the page's pictures, seconds; default: the shortest of the methods' runs")
         ->check(positive_number());
     command
         ->add_option("--page-side", options->page_side,
-                     "The page's pictures are thinned to at most so many pixels a side")
+                     "Largest side of the page's pictures, pixels; larger ones are subsampled")
         ->check(CLI::Range(16, 32768))
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "Of all renders, whose own seeds derive from it")
+    command->add_option("--seed", options->seed, "Seed that the seeds of all renders derive from")
         ->capture_default_str();
     add_scene_options(*command, options->arguments);
-    command->add_option("--device", request.device, "Vulkan device by index or name; the best by default");
-    command->add_option("--threads", request.threads, "Threads of cpu or oracle; one a core by default")
+    command->add_option("--device", request.device, "Vulkan device, by index or name; default: the best");
+    command->add_option("--threads", request.threads, "Threads of cpu or oracle; default: one per core")
         ->check(CLI::Range(1, 4096));
     command->add_flag("--validation", request.validation,
-                      "Run Vulkan's validation layers; exit 1 if they have anything to say");
-    command->add_option("-o,--output", options->folder, "Folder of the results; index.html is the page")->required();
-    command->add_flag("--json", options->json, "Results as JSON on stdout");
+                      "Run Vulkan's validation layers; exit code 1 if they report anything");
+    command->add_option("-o,--output", options->folder, "Folder for the results; index.html is the page")->required();
+    command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(converge_examples);
     command->callback([options, command, &run] {
         options->command = typed(*command);

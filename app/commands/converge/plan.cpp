@@ -43,12 +43,13 @@ Method parse_method(const char* option, const std::string& text, const RenderReq
     const std::string& backend = parts.front();
     if (!is_backend(backend)) {
         throw Error(
-            fmt::format("{} {}: wants BACKEND:INTEGRATOR, and the backends are cpu, vulkan, oracle", option, text));
+            fmt::format("{} {}: expected BACKEND:INTEGRATOR; the backends are cpu, vulkan, oracle", option, text));
     }
     const bool oracle = backend == "oracle";
     if (parts.size() > (oracle ? 2U : 3U) || (!oracle && parts.size() < 2)) {
-        throw Error(fmt::format("{} {}: wants cpu:INTEGRATOR[:SAMPLER], vulkan:INTEGRATOR[:SAMPLER] or oracle[:MODE]",
-                                option, text));
+        throw Error(
+            fmt::format("{} {}: expected cpu:INTEGRATOR[:SAMPLER], vulkan:INTEGRATOR[:SAMPLER] or oracle[:MODE]",
+                        option, text));
     }
     Method method{.name = text, .request = base, .seeds = seeds, .place = place};
     method.request.settings.seed = method.seed_of(0);
@@ -121,10 +122,11 @@ void check_converge_options(ConvergeOptions& options) {
     };
     const bool vulkan = any(on("vulkan")) || parts_of(options.reference).front() == "vulkan";
     if (!vulkan && (!request.device.empty() || request.validation)) {
-        throw Error(fmt::format("{}: goes with a method on vulkan", request.validation ? "--validation" : "--device"));
+        throw Error(
+            fmt::format("{}: works only with a method on vulkan", request.validation ? "--validation" : "--device"));
     }
     if (request.threads != 0 && !any(on("cpu")) && !any(on("oracle"))) {
-        throw Error("--threads: goes with a method on cpu or oracle");
+        throw Error("--threads: works only with a method on cpu or oracle");
     }
     const bool resampled = any([&](const std::string& name) {
         const SeedPlan any_seeds(options.seed, SeedPurpose::converge, 1, 1);
@@ -133,7 +135,7 @@ void check_converge_options(ConvergeOptions& options) {
     });
     refuse_idle_resampling_options(names, resampled);
     if (options.folder.empty()) {
-        throw Error("-o: wants a folder for the results");
+        throw Error("-o: needs a folder for the results");
     }
 }
 

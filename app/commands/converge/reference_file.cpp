@@ -11,11 +11,11 @@ namespace diptych::core::app {
 ReferencePicture load_reference(const std::string& path, int width, int height) {
     LayeredImage image = read_image(path);
     if (image.color.width != width || image.color.height != height) {
-        throw Error(fmt::format("--reference {}: has {}x{} pixels, and {}x{} are rendered; give --size", path,
+        throw Error(fmt::format("--reference {}: has {}x{} pixels, but {}x{} are rendered; give --size", path,
                                 image.color.width, image.color.height, width, height));
     }
     if (image.data != image.display) {
-        throw Error(fmt::format("--reference {}: a crop: it has data for {}x{} of its {}x{} pixels", path,
+        throw Error(fmt::format("--reference {}: is a crop: it has data for {}x{} of its {}x{} pixels", path,
                                 image.data.width, image.data.height, width, height));
     }
     for (const float value : image.color.data) {

@@ -155,7 +155,7 @@ std::string summary_to_csv(const ConvergeSummary& summary) {
 
 void print_summary(const ConvergeOptions& options, const ConvergeSummary& summary, const ReferencePicture& reference) {
     const RenderSettings& settings = options.arguments.request.settings;
-    fmt::print("{} at {}x{}, {} runs a method; reference: {}{}\n", options.arguments.request.scene, settings.width,
+    fmt::print("{} at {}x{}, {} runs per method; reference: {}{}\n", options.arguments.request.scene, settings.width,
                settings.height, options.runs, reference.method,
                reference.spp > 0 ? fmt::format(", {} spp", reference.spp) : "");
     fmt::print("{:<26} {:>8} {:>9} {:>10} {:>7} {:>15} {:>13}  bias\n", "method", "spp", "time", "relMSE", "slope",
@@ -171,7 +171,8 @@ void print_summary(const ConvergeOptions& options, const ConvergeSummary& summar
                    mark + time_text(method.to_target.seconds), method.bias_text,
                    last.nonfinite > 0 ? fmt::format("; {} samples were not finite", last.nonfinite) : "");
     }
-    fmt::print("Slope of the MSE over the samples (-1: independent samples). Page: {}/index.html\n", options.folder);
+    fmt::print("\"slope\" is that of log MSE over log samples; independent samples give -1. Page: {}/index.html\n",
+               options.folder);
 }
 
 }  // namespace diptych::core::app

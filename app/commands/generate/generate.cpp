@@ -42,7 +42,7 @@ int list_scenes(bool json) {
     nlohmann::ordered_json names = nlohmann::ordered_json::array();
     std::vector<SceneGenerator> all(scene_generators().begin(), scene_generators().end());
     all.insert(all.end(), extreme_scene_generators().begin(), extreme_scene_generators().end());
-    all.push_back({random_name, "a small scene drawn at random by --seed, as verify --random judges them", nullptr});
+    all.push_back({random_name, "a small random scene, chosen by --seed, as verify --random tests them", nullptr});
     for (const SceneGenerator& generator : all) {
         const std::string description = with_option_names(generator.description);
         if (json) {
@@ -76,22 +76,23 @@ int run_generate(const GenerateArguments& options) {
         return list_scenes(options.json);
     }
     if (options.name.empty()) {
-        throw Error("generate: wants the NAME of a scene; see diptych generate --list");
+        throw Error("generate: needs the NAME of a scene; see diptych generate --list");
     }
     const bool random = options.name == random_name;
     const bool street = options.name == "many-lights";
     if ((options.sets_count && !street) || (options.sets_seed && !street && !random)) {
-        throw Error(fmt::format("generate {}: --count is for many-lights alone, --seed for it and random", options.name));
+        throw Error(fmt::format("generate {}: --count works only with many-lights, --seed with many-lights and random",
+                                options.name));
     }
     if (options.moving && !random) {
-        throw Error(fmt::format("generate {}: --moving is for random alone", options.name));
+        throw Error(fmt::format("generate {}: --moving works only with random", options.name));
     }
     if (options.output.empty()) {
-        throw Error(fmt::format("generate {}: wants a file to write, -o FILE", options.name));
+        throw Error(fmt::format("generate {}: needs a file to write, -o FILE", options.name));
     }
     const std::string extension = std::filesystem::path(options.output).extension().string();
     if (extension != ".gltf" && extension != ".glb") {
-        throw Error(fmt::format("{}: a scene is written as .gltf or .glb", options.output));
+        throw Error(fmt::format("{}: the scene file must be .gltf or .glb", options.output));
     }
     check_file_can_be_created(options.output);
     if (extension == ".gltf") {
@@ -101,7 +102,7 @@ int run_generate(const GenerateArguments& options) {
     if (options.json) {
         print_json({{"name", options.name}, {"output", options.output}, {"recommended_arguments", arguments}});
     } else {
-        fmt::print("{}: written; to see it: diptych render {}{}{} -o picture.png\n", options.output, options.output,
+        fmt::print("{}: written; to render it: diptych render {}{}{} -o picture.png\n", options.output, options.output,
                    arguments.empty() ? "" : " ", arguments);
     }
     return exit_done;
@@ -110,18 +111,19 @@ int run_generate(const GenerateArguments& options) {
 }  // namespace
 
 void add_generate(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("generate", "Write one of our own scenes as glTF");
+    CLI::App* command = app.add_subcommand("generate", "Write one of the built-in scenes as glTF");
     auto options = std::make_shared<GenerateArguments>();
-    command->add_option("name", options->name, "Scene; see --list");
+    command->add_option("name", options->name, "Name of the scene; see --list");
     command->add_option("-o,--output", options->output, "File to write: .gltf (with a .bin beside it) or .glb");
-    CLI::Option* count = command->add_option("--count", options->generate.count, "many-lights: emitters")
+    CLI::Option* count = command->add_option("--count", options->generate.count, "many-lights: number of emitters")
                              ->check(CLI::Range(1U, 100000000U))
                              ->capture_default_str();
     CLI::Option* seed =
-        command->add_option("--seed", options->generate.seed, "many-lights: which street; random: which scene")->capture_default_str();
-    command->add_flag("--moving", options->moving, "random: nodes, cameras and lights of the scene move and switch");
-    command->add_flag("--list", options->list, "Say which scenes there are");
-    command->add_flag("--json", options->json, "Results as JSON on stdout");
+        command->add_option("--seed", options->generate.seed, "many-lights, random: seed that the scene is made from")
+            ->capture_default_str();
+    command->add_flag("--moving", options->moving, "random: let nodes and cameras move, and lights move and switch");
+    command->add_flag("--list", options->list, "List the scenes");
+    command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(generate_examples);
     command->callback([options, count, seed, &run] {
         options->sets_count = count->count() > 0;

@@ -28,8 +28,9 @@ constexpr const char* info_examples = R"(Examples:
   diptych info scene.gltf --integrator brdf --brdf blinn-phong --json
   diptych info scene.gltf --backend vulkan --size 1920x1080
   diptych info --devices
-What a scene needs depends on the integrator, the BRDF, the environment and the size, so the options of render apply.
-Bytes are what render holds with them: acceleration structures are built on the backend, to know their size.)";
+What a scene needs depends on the integrator, the BRDF, the environment and the size, so the options of render
+apply. The memory is what render needs with these options. The acceleration structures are built on the backend to
+measure their size.)";
 
 struct InfoOptions {
     RenderArguments arguments;
@@ -162,7 +163,7 @@ void print_info(const nlohmann::ordered_json& json) {
     fmt::print("{}\n", json.at("scene").get<std::string>());
     fmt::print("  triangles   {} stored in {} meshes, {} placed by {} instances\n", number("triangles"),
                number("meshes"), number("placed_triangles"), number("instances"));
-    fmt::print("  lights      {}, of them {} emissive triangles, {} punctual\n", number("lights"),
+    fmt::print("  lights      {}: {} emissive triangles, {} punctual\n", number("lights"),
                number("emissive_triangles"), number("punctual_lights"));
     fmt::print("  materials   {}, textures {} of {} images\n", number("materials"), number("textures"),
                number("images"));
@@ -180,7 +181,7 @@ void print_info(const nlohmann::ordered_json& json) {
     }
     fmt::print("  needs       {}\n", words(json.at("features")));
     fmt::print("  left out    {}\n", words(json.at("left_out")));
-    fmt::print("  takes       {} at {}x{} on {}\n", byte_text(json.at("bytes").get<double>()), number("width"),
+    fmt::print("  memory      {} at {}x{} on {}\n", byte_text(json.at("bytes").get<double>()), number("width"),
                number("height"), json.at("backend").get<std::string>());
     const auto part = [](const std::string& name, const nlohmann::ordered_json& bytes) {
         fmt::print("    {:<23} {:>12}\n", name, byte_text(bytes.get<double>()));
@@ -200,7 +201,7 @@ int run_info(InfoOptions options) {
     }
     RenderRequest& request = options.arguments.request;
     if (request.scene.empty()) {
-        throw Error("info: wants a scene, or --devices");
+        throw Error("info: needs a scene, or --devices");
     }
     resolve_names(options.arguments);
     request.settings.standard_error = options.layers;
@@ -219,15 +220,16 @@ int run_info(InfoOptions options) {
 }  // namespace
 
 void add_info(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("info", "Say what a scene holds and needs, or which devices there are");
+    CLI::App* command = app.add_subcommand("info", "Show what a scene contains and needs, or list the devices");
     auto options = std::make_shared<InfoOptions>();
     command->add_option("scene", options->arguments.request.scene, ".gltf or .glb file");
-    command->add_flag("--devices", options->devices, "List the devices, and what each lacks");
+    command->add_flag("--devices", options->devices, "List the devices, and what each lacks for rendering");
     add_integrator_option(*command, options->arguments);
     add_scene_options(*command, options->arguments);
     add_backend_options(*command, options->arguments);
-    command->add_flag("--layers,!--no-layers", options->layers, "Count the layers beside colour; on by default");
-    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->add_flag("--layers,!--no-layers", options->layers,
+                      "Count the layers beside colour in the memory; on by default");
+    command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(info_examples);
     command->callback([options, &run] { run = [options] { return run_info(*options); }; });
 }

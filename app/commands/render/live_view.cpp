@@ -43,7 +43,7 @@ Endpoint parse_endpoint(const std::string& text) {
     const auto parsed = std::from_chars(endpoint.port.data(), end, port);
     const bool number = parsed.ec == std::errc() && parsed.ptr == end && port >= 1 && port <= 65535;
     if (endpoint.host.empty() || !number || (!bracketed && endpoint.host.find(':') != std::string::npos)) {
-        throw Error(fmt::format("--live {}: is not HOST:PORT, such as localhost:14158 or [::1]:14158", text));
+        throw Error(fmt::format("--live {}: expected HOST:PORT, such as localhost:14158 or [::1]:14158", text));
     }
     return endpoint;
 }

@@ -115,7 +115,7 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
     picture.saved = true;
     if (totals.nonfinite > 0) {
         report_warning(
-            fmt::format("{}: {} of {} samples were not finite, negative or beyond what is summed, and were dropped",
+            fmt::format("{}: {} of {} samples were dropped: they were not finite, negative, or too large to sum",
                         request.output, totals.nonfinite, totals.samples + totals.nonfinite));
     }
     std::vector<PassTime> passes = renderer.pass_times();

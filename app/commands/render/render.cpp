@@ -33,11 +33,12 @@ constexpr const char* render_examples = R"(Examples:
   diptych render scene.glb -o walk.####.exr --frames 96 --fps 24 --camera moving
   diptych render scene.glb -o around.png --frames 36 --orbit 10 --tonemap aces
   diptych render scene.glb -o film.####.exr --frames 96 --integrator restir --spp 1 --warm-up 24
-A sequence plays the scene's animations from --start on, one file a frame: #### in the name is its number, else it goes
-before the extension. Frame i has the seed --seed + i; with restir all have --seed, and each goes on from the one before. Each
-file's metadata repeats it alone.
-EXR holds linear colour, standard error, albedo, normal and depth, with metadata that repeats the render: the command is
-in the attribute diptych:command. PNG is tone mapped; HDR is linear. Ctrl-C saves the work so far and exits with 130.)";
+--frames plays the scene's animations from --start on and writes one file per frame. #### in the file name stands
+for the frame number; without it the number comes before the extension. Frame i has the seed --seed + i. With
+restir, all frames have the seed --seed, and each frame reuses the previous one. The metadata of each file hold a
+command that renders this frame alone.
+EXR holds linear colour, standard error, albedo, normal and depth. Its attribute diptych:command holds the command
+that repeats the render. PNG is tone mapped; HDR is linear. Ctrl-C saves the samples so far and exits with code 130.)";
 
 struct RenderOptions {
     RenderArguments arguments;
@@ -62,40 +63,40 @@ void check_render_options(RenderOptions& options) {
     refuse_idle_resampling_options(options.arguments, resamples(settings.integrator));
     tonemap_from_name(request.tonemap);
     if (options.warm_up_option->count() > 0 && !(request.backend != "oracle" && chains_frames(settings))) {
-        throw Error("--warm-up: goes with --integrator restir and --temporal, whose frames go on from one another");
+        throw Error("--warm-up: works only with --integrator restir and --temporal, which reuse the previous frame");
     }
     if (request.seconds > 0 || (request.target_error > 0 && options.spp_option->count() == 0)) {
         request.spp = 0;
     }
     if (request.target_error > 0 && request.backend != "oracle" && resamples(settings.integrator)) {
         throw Error(fmt::format(
-            "--target-error: the frames of {} are resampled together, so their spread does not tell the error",
+            "--target-error: {} resamples a frame as a whole, so the spread of its samples does not give the error",
             name_of(settings.integrator)));
     }
     settings.sample_count = options.sample_count > 0 ? options.sample_count : request.spp;
     if (settings.sampler == SamplerKind::hammersley && settings.sample_count == 0) {
-        throw Error("--sampler hammersley: is laid out for a known number of samples: give --spp or --sample-count");
+        throw Error("--sampler hammersley: needs a known number of samples; give --spp or --sample-count");
     }
     if (options.sequence_option->count() + options.start_option->count() + options.orbit_option->count() > 0) {
         request.frames = std::max(request.frames, 1U);
     } else if (options.fps_option->count() > 0) {
-        throw Error("--fps: goes with --frames");
+        throw Error("--fps: works only with --frames");
     }
     if (request.seconds > 0 && chains_frames(settings) && request.frames + request.warm_up > 1) {
         throw Error(
-            "--time: a chain of restir's frames repeats only if each has a known number of samples: give --spp");
+            "--time: frames of restir that reuse each other need a fixed number of samples each; give --spp");
     }
     if (chains_frames(settings) &&
         static_cast<double>(request.warm_up) + request.frames > 4294967295.0 / std::max(request.spp, 1U)) {
-        throw Error("--frames: a chain of restir's frames has at most 4294967295 samples");
+        throw Error("--frames: frames of restir that reuse each other have at most 4294967295 samples together");
     }
     check_writable(frame_path(request.output, 0, request.frames));
     const bool exr = image_format(request.output) == ImageFormat::Exr;
     if (!exr && options.layers && options.layers_option->count() > 0) {
-        throw Error(fmt::format("--layers: {} cannot hold them, only .exr can", request.output));
+        throw Error(fmt::format("--layers: {} cannot hold layers; only .exr can", request.output));
     }
     if (request.target_error > 0 && exr && !options.layers) {
-        throw Error("--no-layers: --target-error keeps the standard errors, which are one of them");
+        throw Error("--no-layers: --target-error needs the layer of standard errors");
     }
     // Where frames go on from one another their spread says too little of the mean's error: better no layer than a
     // wrong one.
@@ -106,8 +107,9 @@ void check_render_options(RenderOptions& options) {
 int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) {
     const RenderRequest& request = options.arguments.request;
     if (moves(scene)) {
-        report_warning(fmt::format("{}: its animations are not played, it is shown at rest: give --frames or --start",
-                                   scene.name));
+        report_warning(
+            fmt::format("{}: its animations are not played and it is shown at rest; give --frames or --start",
+                        scene.name));
     }
     Session session = open_session(scene, request);
     InterruptGuard interrupt;
@@ -142,51 +144,55 @@ void add_render(CLI::App& app, Run& run) {
     RenderRequest& request = options->arguments.request;
     command->add_option("scene", request.scene, ".gltf or .glb file")->required();
     command->add_option("-o,--output", request.output, "Image to write: .exr, .png or .hdr")->required();
-    CLI::Option* spp = command->add_option("--spp", request.spp, "Samples a pixel")
+    CLI::Option* spp = command->add_option("--spp", request.spp, "Samples per pixel")
                            ->check(CLI::Range(1U, 4294967295U))
                            ->capture_default_str();
     options->spp_option = spp;
     command
         ->add_option("--target-error", request.target_error,
-                     "Stop where the relMSE, estimated from the spread of 16 samples or more, is below; --spp or "
-                     "--time are limits then")
+                     "Stop when the relMSE, estimated from 16 samples on, is below this; --spp and --time are limits")
         ->check(positive_number());
-    command->add_option("--time", request.seconds, "Render for so many seconds instead, to the nearest whole sample")
+    command
+        ->add_option("--time", request.seconds,
+                     "Rendering time in seconds, to the nearest whole sample; replaces --spp")
         ->check(CLI::Range(0.001, 1e9))
         ->check(finite_number())
         ->excludes(spp);
     options->arguments.panel_options.push_back(
         command
             ->add_option("--sample-count", options->sample_count,
-                         "Samples that hammersley is laid out for; --spp by default")
+                         "Size of the hammersley set, samples per pixel; default: --spp")
             ->check(CLI::Range(1U, 4294967295U)));
-    command->add_option("--seed", request.settings.seed, "Another seed, other noise")->capture_default_str();
+    command->add_option("--seed", request.settings.seed, "Seed of the random numbers; another seed gives other noise")
+        ->capture_default_str();
     options->sequence_option = command
                                    ->add_option("--frames", request.frames,
-                                                "Render a sequence of so many frames; --spp or --time is each one's")
+                                                "Number of frames of a sequence; --spp or --time is per frame")
                                    ->check(CLI::Range(1U, 1000000U));
     options->fps_option =
-        command->add_option("--fps", request.fps, "Frames a second")->check(positive_number())->capture_default_str();
+        command->add_option("--fps", request.fps, "Frames per second")->check(positive_number())->capture_default_str();
     options->start_option =
-        command->add_option("--start", request.start, "Seconds of the scene's animations at the first frame")
+        command->add_option("--start", request.start, "Time of the first frame in the scene's animations, seconds")
             ->check(non_negative_number());
     options->orbit_option =
-        command->add_option("--orbit", request.orbit, "Degrees a frame that the camera turns about what it looks at")
+        command->add_option("--orbit", request.orbit,
+                            "Rotation of the camera about the point it looks at, degrees per frame")
             ->check(finite_number());
     options->warm_up_option = command->add_option(
         "--warm-up", request.warm_up,
-        "restir: frames that are rendered before the first, and not kept; without --frames, samples");
+        "restir: frames to render and discard before the first one; without --frames, samples");
     add_integrator_option(*command, options->arguments);
     add_scene_options(*command, options->arguments);
     add_backend_options(*command, options->arguments);
     add_oracle_option(*command, options->arguments);
-    add_display_options(*command, request.exposure, request.tonemap, "for .png");
-    options->layers_option = command->add_flag("--layers,!--no-layers", options->layers,
-                                               "Write the layers beside colour; .exr only, on by default");
+    add_display_options(*command, request.exposure, request.tonemap, "for .png files");
+    options->layers_option =
+        command->add_flag("--layers,!--no-layers", options->layers,
+                          "Also write standard error, albedo, normal and depth (.exr only); on by default");
     command->add_option(
         "--live", options->live,
-        "HOST:PORT of a running tev, to watch the picture grow in it; tev listens on 127.0.0.1:14158 by default");
-    command->add_flag("--json", options->json, "Results as JSON on stdout");
+        "HOST:PORT of a running tev viewer to show the progress in; tev's default is 127.0.0.1:14158");
+    command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(render_examples);
     command->callback([options, &run] { run = [options] { return run_render(*options); }; });
 }

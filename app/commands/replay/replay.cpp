@@ -19,10 +19,11 @@ constexpr const char* replay_examples = R"(Examples:
   diptych replay cornell.gltf --pixel 210,300 --sample 5
   diptych replay street.glb --pixel 12,40 --sample 0 --size 64x48 --seed 7 --integrator direct
   diptych replay cornell.gltf --pixel 210,300 --backends cpu --json
-Both backends trace the same path from the same random numbers. Numbers differ relative to the larger of the two,
-positions relative to the ray's length, directions and barycentrics absolutely; '=' is a difference of at most 1e-6.
-Scene, size, seed and settings have to be those of the picture in question. --max-depth too: roulette does not depend
-on it, but the last vertex does.)";
+Both backends trace the same path from the same random numbers. Differences of numbers are relative to the larger
+number, those of positions to the length of the ray; those of directions and barycentrics are absolute. '=' is a
+difference of at most 1e-6.
+Scene, size, seed and settings must be those of the picture. This includes --max-depth, which decides which vertex
+is the last one.)";
 
 struct ReplayOptions {
     RenderArguments arguments;
@@ -81,27 +82,28 @@ int run_replay(ReplayOptions options) {
 }  // namespace
 
 void add_replay(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("replay", "Trace one path again on both backends, vertex by vertex");
+    CLI::App* command = app.add_subcommand("replay", "Trace one path on both backends and compare it vertex by vertex");
     auto options = std::make_shared<ReplayOptions>();
     command->add_option("scene", options->arguments.request.scene, ".gltf or .glb file")->required();
-    command->add_option("--pixel", options->pixel, "Column and row, from the top left")
+    command->add_option("--pixel", options->pixel, "Column and row of the pixel, from the top left")
         ->type_name("X,Y")
         ->delimiter(',')
         ->expected(2)
         ->required();
-    command->add_option("--sample", options->sample, "Which sample of that pixel")->capture_default_str();
-    command->add_option("--seed", options->arguments.request.settings.seed, "The picture's")->capture_default_str();
+    command->add_option("--sample", options->sample, "Index of the sample in this pixel")->capture_default_str();
+    command->add_option("--seed", options->arguments.request.settings.seed, "Seed of the picture")
+        ->capture_default_str();
     command
-        ->add_option("--sample-count", options->sample_count, "Samples that the picture's hammersley was laid out for")
+        ->add_option("--sample-count", options->sample_count, "Size of the picture's hammersley set, samples per pixel")
         ->check(CLI::Range(1U, 4294967295U))
         ->capture_default_str();
-    command->add_option("--tolerance", options->tolerance, "Differences up to here are rounding")
+    command->add_option("--tolerance", options->tolerance, "Largest difference that counts as rounding")
         ->check(non_negative_number())
         ->capture_default_str();
     add_integrator_option(*command, options->arguments);
     add_scene_options(*command, options->arguments);
     add_pair_options(*command, options->pair);
-    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(replay_examples);
     command->callback([options, &run] { run = [options] { return run_replay(*options); }; });
 }

@@ -20,8 +20,8 @@ constexpr const char* stability_examples = R"(Examples:
   diptych stability
   diptych stability --quick --backends cpu
   diptych stability --rows "GGX D,solid angle" -o stability
-Measures shared functions and small pictures at their extremes, on each backend, against double precision and closed forms. Exit code 1
-where an error passes its bound or a result is not a number.)";
+Evaluates shared functions and small pictures at extreme inputs on each backend, and compares them with double
+precision and closed forms. The exit code is 1 if an error exceeds its bound or a result is not finite.)";
 
 struct StabilityOptions {
     PairArguments pair;
@@ -79,16 +79,16 @@ int run_stability(const StabilityOptions& options) {
 }  // namespace
 
 void add_stability(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("stability", "Measure numerical errors at the extremes on this machine");
+    CLI::App* command = app.add_subcommand("stability", "Measure numerical errors at extreme inputs on this machine");
     auto options = std::make_shared<StabilityOptions>();
-    command->add_option("--rows", options->rows, "Only these rows of the table, comma-separated; see --list")
+    command->add_option("--rows", options->rows, "Rows of the table to measure, comma-separated; see --list")
         ->delimiter(',');
-    command->add_flag("--quick", options->quick, "Few points and samples of each range: half a minute, not minutes");
+    command->add_flag("--quick", options->quick, "Use fewer points and samples: half a minute instead of minutes");
     add_pair_options(*command, options->pair);
     command->add_option("-o,--output", options->output,
                         "Folder for the table as CSV and JSON, and a plot (SVG) of each case that has a range");
-    command->add_flag("--list", options->list, "Say which rows and cases there are");
-    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->add_flag("--list", options->list, "List the rows and cases");
+    command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(stability_examples);
     command->callback([options, &run] { run = [options] { return run_stability(*options); }; });
 }

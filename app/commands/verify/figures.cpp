@@ -126,7 +126,7 @@ void prepare_folder(const std::string& folder) {
     std::error_code failure;
     std::filesystem::create_directory(folder, failure);
     if (!std::filesystem::is_directory(folder)) {
-        throw Error(fmt::format("{}: is no folder, and cannot be made one", folder));
+        throw Error(fmt::format("{}: is not a folder and cannot be created", folder));
     }
     check_writable(std::filesystem::path(folder) / "figure.png");
 }

@@ -39,9 +39,9 @@ double largest_z(const PairedReport& report) {
 void print_report(RenderRequest request, const Figured& run) {
     request.settings.integrator = run.paths.integrator;
     const PairedReport& report = run.paths.report;
-    fmt::print("{}: {} paths, {:.4f} % decided alike, of these worst difference {:.2e}", name_of(run.paths.integrator),
-               report.paths, percent(report.alike, report.paths), report.worst_relative);
-    fmt::print("{}\n", report.drifted > 0 ? fmt::format(", {} beyond 1e-3", report.drifted) : "");
+    fmt::print("{}: {} paths; {:.4f} % decided alike, their largest difference is {:.2e}",
+               name_of(run.paths.integrator), report.paths, percent(report.alike, report.paths), report.worst_relative);
+    fmt::print("{}\n", report.drifted > 0 ? fmt::format(", {} are above 1e-3", report.drifted) : "");
     fmt::print("  {:>8} {:>12} {:>10} {:>12}\n", "vertex", "paths", "parted", "fraction");
     for (std::size_t i = 0; i < report.bounces.size(); ++i) {
         const PairedBounce& bounce = report.bounces[i];
@@ -50,8 +50,8 @@ void print_report(RenderRequest request, const Figured& run) {
     }
     const auto& sum = report.divergent_sum;
     const auto& error = report.divergent_error;
-    fmt::print("  signed sum of what differs {:.3g} {:.3g} {:.3g} +- {:.3g} {:.3g} {:.3g}, z {:.2f}\n", sum[0], sum[1],
-               sum[2], error[0], error[1], error[2], largest_z(report));
+    fmt::print("  sum of the signed differences {:.3g} {:.3g} {:.3g} +- {:.3g} {:.3g} {:.3g}, z {:.2f}\n", sum[0],
+               sum[1], sum[2], error[0], error[1], error[2], largest_z(report));
     for (const PairedExample& example : report.drifted_examples) {
         fmt::print("  drifted by {:.2e}: {}\n", example.difference, replay_command(request, example.query));
     }
@@ -61,7 +61,7 @@ void print_report(RenderRequest request, const Figured& run) {
     fmt::print("  {}{} in {:.1f} s\n", name_of(report.verdict), report.reason.empty() ? "" : ": " + report.reason,
                run.seconds);
     if (!run.figure.empty()) {
-        fmt::print("  {}: share of each pixel's paths that part, from 0 (black) to 10 % (yellow)\n", run.figure);
+        fmt::print("  {}: fraction of each pixel's paths that part, from 0 (black) to 10 % (yellow)\n", run.figure);
     }
 }
 
@@ -121,7 +121,7 @@ PairedVerdict worst_verdict(const std::vector<Figured>& runs) {
 int run_paired(RenderArguments arguments, const PairArguments& pair, const PairedOptions& options) {
     check_pair(pair);
     if (pair.backends.size() != 2) {
-        throw Error("--paired: compares two backends, as --backends cpu,vulkan");
+        throw Error("--paired: needs two backends, such as --backends cpu,vulkan");
     }
     for (const Integrator integrator : options.integrators) {
         refuse_resampling("--integrators", integrator, "verify --paired");

@@ -22,7 +22,7 @@ void check_backend(const std::string& option, const std::string& name) {
 template <class T>
 void check_distinct(const std::string& option, std::vector<T> names) {
     if (names.empty()) {
-        throw Error(fmt::format("{}: names none", option));
+        throw Error(fmt::format("{}: the list is empty", option));
     }
     std::sort(names.begin(), names.end());
     const auto twice = std::adjacent_find(names.begin(), names.end());
@@ -39,11 +39,11 @@ void check_backend_options(const VerifyOptions& options, const std::vector<PairN
     };
     const bool vulkan = uses([](const std::string& backend) { return backend == "vulkan"; });
     if (!vulkan && (!request.device.empty() || request.validation)) {
-        throw Error(fmt::format("--{}: goes with vulkan, which is not among the backends",
+        throw Error(fmt::format("--{}: works only with vulkan, which is not among the backends",
                                 request.validation ? "validation" : "device"));
     }
     if (request.threads != 0 && !uses([](const std::string& backend) { return backend != "vulkan"; })) {
-        throw Error("--threads: goes with the CPU, which is not among the backends");
+        throw Error("--threads: works only with the CPU, which is not among the backends");
     }
 }
 
@@ -82,11 +82,11 @@ std::vector<PairName> plan_pairs(const VerifyOptions& options) {
     }
     check_backend_options(options, pairs);
     if (options.common_seeds && options.against_spp != 0) {
-        throw Error("--against-spp: common seeds want the same samples on both sides");
+        throw Error("--against-spp: --common-seeds needs the same samples on both sides");
     }
     if (options.common_seeds && (reference == "oracle" || std::count(options.backends.begin(), options.backends.end(),
                                                                      std::string("oracle")) > 0)) {
-        throw Error("--common-seeds: the oracle draws random numbers of its own, so it has none in common");
+        throw Error("--common-seeds: the oracle has random numbers of its own, so it shares none");
     }
     return pairs;
 }

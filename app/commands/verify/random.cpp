@@ -39,7 +39,7 @@ void check_options(const VerifyOptions& options) {
     for (const CLI::Option* option : options.command->get_options()) {
         const auto names_it = [&](const char* name) { return option->check_name(name); };
         if (option->count() > 0 && std::none_of(std::begin(allowed), std::end(allowed), names_it)) {
-            throw Error(fmt::format("{}: does not go with --random, which draws the scenes and their settings",
+            throw Error(fmt::format("{}: does not work with --random, which draws the scenes and their settings",
                                     option->get_name()));
         }
     }
@@ -147,7 +147,7 @@ void print_failure(const Failure& failure) {
     fmt::print("seed {}: {}: {:.3g} % [{:.3g}, {:.3g}], adjusted p {:.2g}: {}\n  {}: {}\n", pair.scene, text_of(pair),
                c.bias_percent, c.ci95_percent[0], c.ci95_percent[1], pair.verdict.adjusted_p,
                pair.verdict.reason, failure.file, failure.command);
-    fmt::print("  whole: {}\n", failure.verify);
+    fmt::print("  to test the whole scene: {}\n", failure.verify);
 }
 
 nlohmann::ordered_json pair_json(const RandomPair& pair) {
@@ -187,7 +187,8 @@ struct Findings {
 
 void print_power(const char* what, const ReachedPower& power, double wanted) {
     if (power.pairs > 0) {
-        fmt::print("{}: {} comparisons, image means known to {:.3g} % (median; worst {:.3g} %), {:.0f} % of them to {} %\n",
+        fmt::print("{}: {} comparisons; 95 % half-width of the image mean: median {:.3g} %, worst {:.3g} %; "
+                   "{:.0f} % are within {} %\n",
                    what, power.pairs, power.median, power.worst, 100 * power.reached_share, wanted);
     }
 }
@@ -234,7 +235,7 @@ void print_suite(const VerifyOptions& options, const JudgeOptions& judged_with, 
         print_failure(failure);
     }
     fmt::print("{} scenes from seed {}, {:.0f} s{}\n", report.scenes, options.seed, report.seconds,
-               report.interrupted ? fmt::format("; interrupted; asked for {}", options.random) : "");
+               report.interrupted ? fmt::format("; interrupted, {} were requested", options.random) : "");
     print_power("cpu - oracle or path", report.oracle_power, judged_with.half_width_percent);
     print_power("vulkan - cpu, common seeds", report.common_power, judged_with.half_width_percent);
     fmt::print("{}\n", name_of(report.verdict));
@@ -245,15 +246,13 @@ void print_suite(const VerifyOptions& options, const JudgeOptions& judged_with, 
 void add_random_option(CLI::App& command, VerifyOptions& options) {
     command
         .add_option("--random", options.random,
-                    "Instead of a scene: so many scenes drawn at random, from --seed on, each under five integrators: cpu "
-                    "against the oracle, vulkan against cpu from the same random numbers. Those of even seeds move, and "
-                    "ris and restir are judged at each of five frames. One that fails is shrunk and written, into -o")
+                    "Test this number of random scenes, with seeds from --seed on, instead of a scene file")
         ->check(CLI::Range(1U, 1U << 30U));
     CLI::Option* moving =
-        command.add_flag("--moving", options.moving, "Of --random: let all scenes move, not every second one");
-    command.add_flag("--still", options.still, "Of --random: let none move")->excludes(moving);
+        command.add_flag("--moving", options.moving, "With --random: all scenes move, not only those of even seeds");
+    command.add_flag("--still", options.still, "With --random: no scene moves")->excludes(moving);
     command.add_flag("--shrink,!--no-shrink", options.shrink,
-                     "Of --random: make scenes that fail smaller before they are written; on by default");
+                     "With --random: shrink scenes that fail before they are written; on by default");
 }
 
 int verify_random(const VerifyOptions& options) {

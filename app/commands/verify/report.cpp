@@ -96,14 +96,15 @@ std::string next_command(const VerifyOptions& options, const SuiteResult& suite)
 
 void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
     const RenderSettings& settings = options.arguments.request.settings;
-    fmt::print("{} at {}x{}: {} runs a side{}, {} tiles of {}x{}, seed {}, {:.1f} s\n", options.arguments.request.scene,
-               settings.width, settings.height, options.runs, options.common_seeds ? " of common seeds" : "",
+    fmt::print("{} at {}x{}: {} runs per side{}, {} tiles of {}x{}, seed {}, {:.1f} s\n",
+               options.arguments.request.scene, settings.width, settings.height, options.runs,
+               options.common_seeds ? " with common seeds" : "",
                suite.grid.columns * suite.grid.rows, options.tile, options.tile, suite.seed, suite.seconds);
     if (!options.frames.empty()) {
         const RenderRequest& request = options.arguments.request;
-        fmt::print("A sequence from {:g} s on, {:g} frames a second{}; chains of restir have {} sample{} a frame\n",
+        fmt::print("Sequence from {:g} s on, {:g} frames per second{}; restir has {} sample{} per frame\n",
                    request.start, request.fps,
-                   request.orbit != 0 ? fmt::format(", turning by {:g} degrees a frame", request.orbit) : "",
+                   request.orbit != 0 ? fmt::format(", camera turns by {:g} degrees per frame", request.orbit) : "",
                    options.frame_spp, options.frame_spp == 1 ? "" : "s");
     }
     fmt::print("{:<{}} {:>11} {:>9}  {:^20} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9}  verdict\n", "pair",
@@ -113,14 +114,17 @@ void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
         print_pair(pair, options);
     }
     fmt::print(
-        "PASS wants +- <= {:.3g} % (the widest channel of the image mean) and half of the tiles within {:.3g} %; "
-        "tiles: those within 1 %.\n",
+        "\"+-\" is the 95 % half-width of the image mean, of the channel where it is widest. \"tiles\" is the share of "
+        "tiles with a half-width of at most 1 %.\n"
+        "PASS needs \"+-\" <= {:.3g} %, and a half-width of at most {:.3g} % in half of the tiles.\n",
         options.max_half_width, options.max_tile_half_width);
     fmt::print(
-        "FAIL at a family-wise alpha of {:.2g}{}; a bias of \"detects\" % of the image would be found 9 times in 10.\n",
+        "FAIL has a family-wise alpha of {:.2g}{}. A bias of \"detects\" % of the image mean is found with probability "
+        "0.9.\n",
         options.alpha,
         options.fresh_seeds
-            ? fmt::format(", then {:.2g} with other seeds and four times the samples", options.alpha / 10)
+            ? fmt::format(", and of {:.2g} in a second test with other seeds and four times the samples",
+                          options.alpha / 10)
             : "");
     if (options.fresh_seeds) {
         fmt::print("To repeat: --fresh-seeds --seed {}\n", suite.seed);

@@ -13,19 +13,20 @@ void add_sequence_options(CLI::App& command, VerifyOptions& options, CLI::Option
     CLI::Option* frame =
         command
             .add_option("--frame", options.frames,
-                        "Frames of a sequence to judge, comma-separated; 0,1,2,4,8,16 where --start or --orbit alone "
-                        "asks for one")
+                        "Frames of a sequence to test, comma-separated; default with --start or --orbit: 0,1,2,4,8,16")
             ->delimiter(',')
             ->check(CLI::Range(0U, 999999U));
-    CLI::Option* start = command.add_option("--start", request.start, "Seconds of the scene's animations at frame 0")
-                             ->check(non_negative_number());
+    CLI::Option* start =
+        command.add_option("--start", request.start, "Time of frame 0 in the scene's animations, seconds")
+            ->check(non_negative_number());
     CLI::Option* orbit =
-        command.add_option("--orbit", request.orbit, "Degrees a frame that the camera turns about what it looks at")
+        command.add_option("--orbit", request.orbit,
+                           "Rotation of the camera about the point it looks at, degrees per frame")
             ->check(finite_number());
     CLI::Option* fps =
-        command.add_option("--fps", request.fps, "Frames a second")->check(positive_number())->capture_default_str();
+        command.add_option("--fps", request.fps, "Frames per second")->check(positive_number())->capture_default_str();
     CLI::Option* frame_spp =
-        command.add_option("--frame-spp", options.frame_spp, "restir: samples a pixel of each frame of a chain")
+        command.add_option("--frame-spp", options.frame_spp, "restir: samples per pixel of each frame")
             ->check(CLI::Range(1U, 4096U))
             ->capture_default_str();
     for (CLI::Option* option : {frame, start, orbit, fps, frame_spp}) {
@@ -48,12 +49,12 @@ void resolve_frames(VerifyOptions& options) {
     }
     for (const CLI::Option* option : options.sequence_details) {
         if (frames.empty() && given(option)) {
-            throw Error(fmt::format("{}: goes with --frame, --start or --orbit", option->get_name()));
+            throw Error(fmt::format("{}: works only with --frame, --start or --orbit", option->get_name()));
         }
     }
     for (const auto& [name, spp] : {std::pair("--spp", options.spp), {"--against-spp", options.against_spp}}) {
         if (options.seconds == 0 && spp % options.frame_spp != 0) {
-            throw Error(fmt::format("{} {}: is no multiple of --frame-spp {}", name, spp, options.frame_spp));
+            throw Error(fmt::format("{} {}: is not a multiple of --frame-spp {}", name, spp, options.frame_spp));
         }
     }
 }

@@ -35,13 +35,17 @@ constexpr const char* verify_examples = R"(Examples:
   diptych verify cornell.gltf --paired --spp 16
   diptych verify --random 100 --seed 1 -o failures
   diptych verify moving.gltf --backends cpu --integrators restir --against cpu/path --frame 0,1,2,4,8,16 --spp 256
-Renders each side --runs times, every run with a seed of its own, and compares the runs' means by Welch's test: of the image, of all
-tiles together (Fisher), and of the least likely tile. FAIL: more than chance would do, over all pairs together, at --alpha. PASS: no such
-difference, and the intervals are narrow enough for one to be seen. INCONCLUSIVE: neither; a line says which command would tell. Exit code 1 on FAIL, and
-with --require-pass on INCONCLUSIVE too.
-With --frame, --start or --orbit the scene moves as render --frames moves it, and every frame judged counts as a pair. restir's
-chain is then played from frame 0 for each run, as often as --spp / --frame-spp, every time with another seed; other integrators render
-those moments alone.)";
+Renders each side --runs times, each run with its own seed, and compares the means of the runs by Welch's test.
+There are three tests: of the image, of all tiles together (Fisher), and of the tile with the smallest p-value.
+FAIL: the difference is significant at --alpha, over all pairs together. PASS: it is not, and the confidence
+intervals are narrow enough to detect a bias. INCONCLUSIVE: neither; a line names the command that gives a verdict.
+The exit code is 1 on FAIL, and with --require-pass on INCONCLUSIVE too.
+With --frame, --start or --orbit the scene moves as in render --frames, and each tested frame counts as a pair. For
+each run, restir renders the sequence from frame 0 on, --spp / --frame-spp times with different seeds. Other
+integrators render only the tested frames.
+--random tests each scene with five integrators: cpu against the oracle, and vulkan against cpu with common seeds.
+Scenes of even seeds move; there ris and restir are tested against path at each of five frames. A scene that fails
+is shrunk and written to the folder -o.)";
 
 /// "vulkan/path: run 3 of 32", in place on a terminal, elsewhere at each doubling of the time from two seconds on.
 class RunLine {
@@ -94,7 +98,7 @@ void check_verify_options(VerifyOptions& options) {
     if (typed.settings.sampler == SamplerKind::hammersley ||
         names.request.settings.sampler == SamplerKind::hammersley) {
         if (options.seconds > 0) {
-            throw Error("--sampler hammersley: is laid out for a known number of samples: give --spp");
+            throw Error("--sampler hammersley: needs a known number of samples; give --spp");
         }
     }
     if (!options.output.empty()) {
@@ -137,13 +141,13 @@ int run_verify(VerifyOptions options) {
         return verify_random(options);
     }
     if (!options.shrink) {
-        throw Error("--no-shrink: goes with --random");
+        throw Error("--no-shrink: works only with --random");
     }
     if (options.moving || options.still) {
-        throw Error("--moving, --still: go with --random");
+        throw Error("--moving, --still: work only with --random");
     }
     if (options.arguments.request.scene.empty()) {
-        throw Error("verify: wants a scene, .gltf or .glb, or --random N");
+        throw Error("verify: needs a scene, .gltf or .glb, or --random N");
     }
     check_verify_options(options);
     if (options.paired) {
@@ -153,7 +157,8 @@ int run_verify(VerifyOptions options) {
     const Scene scene = prepare_scene(options.arguments);
     if (moves(scene) && options.frames.empty()) {
         report_warning(
-            fmt::format("{}: its animations are not played, it is shown at rest: give --frame or --start", scene.name));
+            fmt::format("{}: its animations are not played and it is shown at rest; give --frame or --start",
+                        scene.name));
     }
     if (!options.frames.empty()) {
         report_clips(scene, options.arguments.request);
@@ -188,36 +193,37 @@ int run_verify(VerifyOptions options) {
 }  // namespace
 
 void add_verify(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("verify", "Test whether panels and integrators converge to the same image");
+    CLI::App* command =
+        app.add_subcommand("verify", "Test whether backends and integrators converge to the same image");
     auto options = std::make_shared<VerifyOptions>();
     RenderRequest& request = options->arguments.request;
     command->add_option("scene", request.scene, ".gltf or .glb file");
-    command->add_option("--integrators", options->integrators, "Comma-separated")
+    command->add_option("--integrators", options->integrators, "Integrators under test, comma-separated")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("--backends", options->backends, "Panels under test, comma-separated")
+    command->add_option("--backends", options->backends, "Backends under test, comma-separated")
         ->delimiter(',')
         ->capture_default_str();
     command
         ->add_option(
             "--against", options->against,
-            "Reference: BACKEND, under the same integrator, or BACKEND/INTEGRATOR for all; or oracle, or oracle/MODE")
+            "Reference: BACKEND (with the same integrator), BACKEND/INTEGRATOR, oracle or oracle/MODE")
         ->capture_default_str();
-    CLI::Option* runs = command->add_option("--runs", options->runs, "Renders a side")
+    CLI::Option* runs = command->add_option("--runs", options->runs, "Runs per side, each with its own seed")
                             ->check(CLI::Range(2, 4096))
                             ->capture_default_str();
-    CLI::Option* spp = command->add_option("--spp", options->spp, "Samples a pixel of each run")
+    CLI::Option* spp = command->add_option("--spp", options->spp, "Samples per pixel of each run")
                            ->check(CLI::Range(1U, 1U << 30U))
                            ->capture_default_str();
     CLI::Option* against_spp =
         command
             ->add_option(
                 "--against-spp", options->against_spp,
-                "The same of the reference's runs, where the sides differ in noise or speed; as --spp by default")
+                "Samples per pixel of each run of the reference; default: --spp")
             ->check(CLI::Range(1U, 1U << 30U));
     CLI::Option* time = command
                             ->add_option("--time", options->seconds,
-                                         "Double the samples until every pair has power or so many seconds are used up")
+                                         "Seconds in which to double the samples until every pair has enough power")
                             ->check(CLI::Range(0.001, 1e9))
                             ->check(finite_number())
                             ->excludes(spp)
@@ -225,47 +231,46 @@ void add_verify(CLI::App& app, Run& run) {
     command->add_option("--tile", options->tile, "Side of a tile, pixels")
         ->check(CLI::Range(1, 32768))
         ->capture_default_str();
-    command->add_option("--alpha", options->alpha, "Chance of a false FAIL, over all pairs together")
+    command->add_option("--alpha", options->alpha, "Probability of a false FAIL, over all pairs together")
         ->check(CLI::Range(1e-12, 0.5))
         ->check(finite_number())
         ->capture_default_str();
     command
         ->add_option("--max-half-width", options->max_half_width,
-                     "PASS wants the image mean known to so many percent (95 %)")
+                     "PASS needs a 95 % half-width of the image mean of at most this, percent")
         ->check(positive_number())
         ->capture_default_str();
     command
-        ->add_option("--max-tile-half-width", options->max_tile_half_width, "And half of the tiles to so many percent")
+        ->add_option("--max-tile-half-width", options->max_tile_half_width,
+                     "PASS needs a 95 % half-width of at most this in half of the tiles, percent")
         ->check(positive_number())
         ->capture_default_str();
-    CLI::Option* seed = command->add_option("--seed", options->seed, "Of all runs, whose own seeds derive from it")
+    CLI::Option* seed = command->add_option("--seed", options->seed, "Seed that the seeds of all runs derive from")
                             ->capture_default_str();
     CLI::Option* fresh = command->add_flag(
         "--fresh-seeds", options->fresh_seeds,
-        "Seeds by chance, unless --seed repeats such a run; what fails is tried again with four times the samples");
+        "Draw a random seed if --seed is not given, and test again what fails, with four times the samples");
     CLI::Option* paired =
         command
             ->add_flag(
                 "--paired", options->paired,
-                "Instead: trace each path on both panels from the same random numbers, and compare them one by one")
+                "Compare path by path instead: both backends trace each path from the same random numbers")
             ->excludes(runs)
             ->excludes(against_spp)
             ->excludes(time)
             ->excludes(fresh);
     command
         ->add_flag("--common-seeds", options->common_seeds,
-                   "Run k of both panels has one seed: the intervals are of the runs' differences, which are narrow "
-                   "where paths "
-                   "decide alike")
+                   "Give run k of both sides one seed and test the differences, whose noise is small if paths agree")
         ->excludes(paired);
     add_sequence_options(*command, *options, *paired);
-    command->add_flag("--require-pass", options->require_pass, "Exit 1 on INCONCLUSIVE too");
+    command->add_flag("--require-pass", options->require_pass, "Exit code 1 on INCONCLUSIVE too");
     add_scene_options(*command, options->arguments);
-    command->add_option("--device", request.device, "Vulkan device by index or name; the best by default");
-    command->add_option("--threads", request.threads, "CPU threads; one a core by default")->check(CLI::Range(1, 4096));
+    command->add_option("--device", request.device, "Vulkan device, by index or name; default: the best");
+    command->add_option("--threads", request.threads, "CPU threads; default: one per core")->check(CLI::Range(1, 4096));
     command->add_flag("--validation", request.validation, "Run Vulkan's validation layers");
     command->add_option("-o,--output", options->output, "Folder for a map and a histogram (SVG) of each pair's p-values");
-    command->add_flag("--json", options->json, "Results as JSON on stdout");
+    command->add_flag("--json", options->json, "Print the results as JSON");
     add_random_option(*command, *options);
     command->footer(verify_examples);
     options->command = command;

@@ -27,8 +27,9 @@ constexpr const char* view_examples = R"(Examples:
   diptych view scene.gltf
   diptych view scene.glb --panel split --integrator restir --env studio.hdr
   diptych view scene.glb --headless --frames 240 --size 1920x1080 --panel vulkan -o last.png
-The left mouse button orbits, the middle one pans, the wheel goes nearer; WASD and QE fly; F1 shows all keys.
---headless needs no display: it orbits for half of the frames, rests for the others, and prints how long they took.)";
+The left mouse button orbits, the middle button pans, the wheel moves closer. WASD and QE fly. F1 shows all keys.
+--headless needs no display. It orbits during the first half of the frames, rests during the second half, and prints
+the frame times.)";
 
 struct ViewOptions {
     RenderArguments arguments;
@@ -70,13 +71,13 @@ void check_view_options(ViewOptions& options) {
         throw Error("--atlas: a view shows one picture, not copies of it");
     }
     if (settings.sampler == SamplerKind::hammersley) {
-        throw Error("--sampler hammersley: is laid out for a known number of samples, and a view takes as many as "
+        throw Error("--sampler hammersley: needs a known number of samples, and a view renders as many as "
                     "there is time for");
     }
     if (options.headless) {
-        refuse_given(options.window_options, "goes with a window, not with --headless");
+        refuse_given(options.window_options, "works only with a window, not with --headless");
     } else {
-        refuse_given(options.headless_options, "goes with --headless");
+        refuse_given(options.headless_options, "works only with --headless");
     }
     if (!options.output.empty()) {
         check_writable(options.output);
@@ -145,44 +146,48 @@ int run_view(ViewOptions options) {
 }  // namespace
 
 void add_view(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("view", "Look at a scene in a window, rendered while you move");
+    CLI::App* command = app.add_subcommand("view", "Show a scene in a window, rendered while the camera moves");
     auto options = std::make_shared<ViewOptions>();
     RenderRequest& request = options->arguments.request;
     command->add_option("scene", request.scene, ".gltf or .glb file")->required();
-    command->add_option("--panel", options->panel, "vulkan, cpu, split or difference")->capture_default_str();
-    command->add_option("--fps", options->frames_per_second, "Frames a second that samples and previews are sized for")
+    command->add_option("--panel", options->panel,
+                        "Panels to show: vulkan, cpu, split or difference")
+        ->capture_default_str();
+    command->add_option("--fps", options->frames_per_second,
+                        "Target frames per second; it sets the samples and the preview size of a frame")
         ->check(number_between(1, 1000))
         ->capture_default_str();
-    command->add_option("--scale", options->scale, "Pixels rendered over pixels shown, each way")
+    command->add_option("--scale", options->scale, "Ratio of rendered to shown pixels, in each direction")
         ->check(number_between(0.05, 4))
         ->capture_default_str();
-    command->add_flag("--headless", options->headless, "No window: time the frames of one");
+    command->add_flag("--headless", options->headless, "Measure the frame times of the view without a window");
     const auto with_headless = [&](CLI::Option* option) { options->headless_options.push_back(option); };
-    with_headless(command->add_option("--frames", options->frames, "Of --headless")
+    with_headless(command->add_option("--frames", options->frames, "With --headless: number of frames")
                       ->check(CLI::Range(2U, 1000000U))
                       ->capture_default_str());
     with_headless(
-        command->add_option("-o,--output", options->output, "The last frame of --headless: .png, .exr or .hdr"));
-    with_headless(command->add_flag("--json", options->json, "Results of --headless as JSON on stdout"));
+        command->add_option("-o,--output", options->output,
+                            "With --headless: file for the last frame, .png, .exr or .hdr"));
+    with_headless(command->add_flag("--json", options->json, "With --headless: print the results as JSON"));
     options->window_options.push_back(
-        command->add_option("--log", options->log, "One line of JSON an event to this file; - is stdout"));
+        command->add_option("--log", options->log, "File for a log with one line of JSON per event; - is stdout"));
     options->window_options.push_back(
-        command->add_option("--shots", options->folder, "Folder of the pictures that are saved")
+        command->add_option("--shots", options->folder, "Folder for saved pictures")
             ->check(CLI::ExistingDirectory));
     options->window_options.push_back(command
                                           ->add_option("--interface-scale", options->interface_scale,
-                                                       "Of text and buttons; the display's own by default")
+                                                       "Scale of text and buttons; default: the display's")
                                           ->check(number_between(0.5, 4)));
-    command->add_option("--seed", request.settings.seed, "Of the CPU's panel; the other's is the next")
+    command->add_option("--seed", request.settings.seed, "Seed of the cpu panel; the vulkan panel has the next one")
         ->capture_default_str();
     add_integrator_option(*command, options->arguments);
     add_scene_options(*command, options->arguments);
-    command->add_option("--device", options->device, "Vulkan device by index or name; the best by default");
-    command->add_option("--threads", options->threads, "CPU threads; one a core by default")
+    command->add_option("--device", options->device, "Vulkan device, by index or name; default: the best");
+    command->add_option("--threads", options->threads, "CPU threads; default: one per core")
         ->check(CLI::Range(1, 4096));
     command->add_flag("--validation", options->validation,
-                      "Run Vulkan's validation layers; exit 1 if they have anything to say");
-    add_display_options(*command, request.exposure, request.tonemap, "of what is shown and saved as .png");
+                      "Run Vulkan's validation layers; exit code 1 if they report anything");
+    add_display_options(*command, request.exposure, request.tonemap, "for the window and saved .png files");
     command->footer(view_examples);
     command->callback([options, &run] { run = [options] { return run_view(*options); }; });
 }
