@@ -65,7 +65,7 @@ TEST_CASE("an error target yields to other limits, and is refused where it means
     });
     CHECK(seconds == Approx(0.5).epsilon(0.05));
     check_refusal(render_until(folder, scene, "out.exr", {"--target-error", "0.01", "--integrator", "restir"}), 2,
-                  {"--target-error", "restir", "resampled together"});
+                  {"--target-error", "restir", "resamples a frame as a whole"});
     check_refusal(render_until(folder, scene, "out.exr", {"--target-error", "0.01", "--integrator", "ris"}), 2,
                   {"--target-error", "ris"});
     check_refusal(render_until(folder, scene, "out.exr", {"--target-error", "0.01", "--no-layers"}), 2,
