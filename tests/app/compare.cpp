@@ -159,7 +159,7 @@ TEST_CASE("compare looks at the layers that are named, and where crops overlap",
     const ProcessResult crops = run_diptych(folder, {"compare", left, right, "--json", "-o", folder.file("f.png")});
     REQUIRE(crops.exit_code == 0);
     CHECK(nlohmann::json::parse(crops.out).at("mse") == 0);
-    CHECK(contains(crops.err, "compared over 4x5 pixels from 4,1"));
+    CHECK(contains(crops.err, "compared only where both have data: 4x5 pixels from 4,1"));
     CHECK(read_image(folder.file("f.png")).color.height == 5);
     CHECK(run_diptych(folder, {"compare", left, left, "--minus", right + "," + right}).exit_code == 0);
 
