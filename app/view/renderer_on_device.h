@@ -1,4 +1,5 @@
-// What the view asks of a renderer that runs on a device. Other renderers, and programs built without Vulkan, answer with nothing.
+// What the view asks of a renderer that runs on a device. Other renderers, and programs built without Vulkan, answer
+// with nothing.
 #pragma once
 
 #include <memory>

@@ -27,7 +27,8 @@ struct PictureAudience {
     LiveView* live = nullptr;  // sees the picture now and then, and at the end
 };
 
-/// The session's picture: renders until the request's samples or seconds are reached or `cancel` is set, writes request.output and says so.
+/// Renders the session's picture until the request's samples or seconds are reached or `cancel` is set. Writes
+/// request.output and says so.
 /// Throws Error.
 Picture render_picture(Session& session, const RenderRequest& request, const std::atomic<bool>& cancel,
                        const PictureAudience& audience);
