@@ -92,9 +92,7 @@ void VerifySide::play_chain(std::uint32_t run, std::uint32_t done, const std::at
 void VerifySide::keep(std::size_t frame, std::uint32_t run, std::uint32_t done, std::uint32_t samples) {
     const Film film = session_->film();
     nonfinite_ += film_totals(film).nonfinite;
-    const RunMeans means = tile_means(film, tile_);
-    RunMeans& kept = runs_[frame][run];
-    kept = done == 0 ? means : merge_means(kept, done, means, samples);
+    add_to_run(film, tile_, done, samples, runs_[frame][run]);
 }
 
 }  // namespace diptych::core

@@ -73,9 +73,7 @@ void RandomSide::play_chain(std::size_t run, std::uint32_t chain) {
 void RandomSide::keep(std::size_t place, std::size_t run, std::uint32_t done, std::uint32_t samples) {
     const Film film = session_->film();
     nonfinite_ += film_totals(film).nonfinite;
-    const RunMeans means = tile_means(film, tile);
-    RunMeans& kept = runs_[place][run];
-    kept = done == 0 ? means : merge_means(kept, done, means, samples);
+    add_to_run(film, tile, done, samples, runs_[place][run]);
 }
 
 }  // namespace diptych::core

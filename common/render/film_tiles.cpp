@@ -60,4 +60,9 @@ RunMeans merge_means(const RunMeans& a, double samples_a, const RunMeans& b, dou
     return result;
 }
 
+void add_to_run(const Film& film, int tile, std::uint32_t done, std::uint32_t samples, RunMeans& run) {
+    const RunMeans means = tile_means(film, tile);
+    run = done == 0 ? means : merge_means(run, done, means, samples);
+}
+
 }  // namespace diptych::core

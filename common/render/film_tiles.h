@@ -18,6 +18,9 @@ TileGrid tile_grid(int width, int height, int tile);
 /// samples is black.
 RunMeans tile_means(const Film& film, int tile);
 
+/// Adds the film of `samples` more samples a pixel to a run that has `done` of them.
+void add_to_run(const Film& film, int tile, std::uint32_t done, std::uint32_t samples, RunMeans& run);
+
 /// The means of two films of one run over different samples, `samples_a` and `samples_b` of each pixel.
 RunMeans merge_means(const RunMeans& a, double samples_a, const RunMeans& b, double samples_b);
 
