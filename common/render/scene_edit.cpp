@@ -6,13 +6,9 @@ namespace diptych::core {
 
 namespace {
 
-bool emits(const Material& m) {
-    return m.unlit || m.emission != glm::vec3(0) || m.moving_emission;
-}
-
-/// Acceleration structures know which triangles have alpha, which are emitters, and which show their backs.
+/// Acceleration structures know which triangles have alpha, and nothing else of materials: emitters are placed anew.
 bool same_in_structures(const Material& a, const Material& b) {
-    return a.alpha_mode == b.alpha_mode && a.double_sided == b.double_sided && emits(a) == emits(b);
+    return a.alpha_mode == b.alpha_mode;
 }
 
 bool same_place(const Instance& a, const Instance& b) {

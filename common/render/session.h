@@ -107,8 +107,8 @@ private:
     double move_seconds_ = 0;
 };
 
-/// Whether a renderer of one scene can go on with the other: the same meshes and instances, each hit by the same rays,
-/// and light from the same triangles. `edited` is a copy of `scene`, whose meshes are not compared.
+/// Whether a renderer of one scene can go on with the other: the same meshes and instances, and the same triangles with
+/// alpha. `edited` is a copy of `scene`, whose meshes are not compared.
 bool editable_in_place(const Scene& scene, const Scene& edited);
 
 }  // namespace diptych::core
