@@ -5,6 +5,7 @@
 #include "gltf/json_animation.h"
 #include "gltf/write_file.h"
 #include "gltf/written_document.h"
+#include "image/atomic_file.h"
 
 #include <algorithm>
 #include <limits>
@@ -170,7 +171,8 @@ std::string_view view_of(const std::vector<std::uint8_t>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void add_image(WrittenDocument& document, const TextureImage& image, const std::filesystem::path& path, bool binary) {
+void add_image(WrittenDocument& document, const TextureImage& image, const std::filesystem::path& path, bool binary,
+               FilesTogether& files) {
     const std::vector<std::uint8_t> png = gltf::encode_image(image);
     const std::string name = image.name.empty() ? std::to_string(document.images.size) : image.name;
     if (binary) {
@@ -178,7 +180,7 @@ void add_image(WrittenDocument& document, const TextureImage& image, const std::
         document.images.add({{"name", name}, {"mimeType", "image/png"}, {"bufferView", view}});
     } else {
         const std::string file = path.stem().string() + "-" + gltf::file_part(name) + ".png";
-        gltf::write_whole(path.parent_path() / file, {view_of(png)});
+        files.add(path.parent_path() / file, {view_of(png)});
         document.images.add({{"name", name}, {"uri", gltf::encoded_uri(file)}});
     }
 }
@@ -232,7 +234,7 @@ std::string document_text(const WrittenDocument& document, const Scene& scene, c
 }
 
 /// The container of glTF 2.0, section 4.4: a header and two chunks, little-endian, each padded to four bytes.
-void write_glb(const std::filesystem::path& path, WrittenDocument& document, std::string json) {
+void write_glb(const std::filesystem::path& path, WrittenDocument& document, std::string json, FilesTogether& files) {
     json.resize((json.size() + 3) / 4 * 4, ' ');
     document.bytes.resize((document.bytes.size() + 3) / 4 * 4);
     const std::uint64_t bin_part = document.bytes.empty() ? 0 : 8 + document.bytes.size();
@@ -251,7 +253,7 @@ void write_glb(const std::filesystem::path& path, WrittenDocument& document, std
     };
     const std::string header = words({0x46546c67, 2, total, json.size(), 0x4e4f534a});
     const std::string bin_header = document.bytes.empty() ? "" : words({document.bytes.size(), 0x004e4942});
-    gltf::write_whole(path, {header, json, bin_header, {document.bytes.data(), document.bytes.size()}});
+    files.add(path, {header, json, bin_header, {document.bytes.data(), document.bytes.size()}});
 }
 
 }  // namespace
@@ -264,8 +266,9 @@ void write_gltf(const Scene& scene, const std::filesystem::path& path) {
     }
 
     WrittenDocument document;
+    FilesTogether files;
     for (const TextureImage& image : scene.images) {
-        add_image(document, image, path, binary);
+        add_image(document, image, path, binary, files);
     }
     for (const Texture& texture : scene.textures) {
         add_texture(document, texture);
@@ -279,15 +282,16 @@ void write_gltf(const Scene& scene, const std::filesystem::path& path) {
     add_nodes(document, scene, path.string());
 
     if (binary) {
-        write_glb(path, document, document_text(document, scene, ""));
-        return;
+        write_glb(path, document, document_text(document, scene, ""), files);
+    } else {
+        const std::string bin = path.stem().string() + ".bin";
+        const std::string_view bytes(document.bytes.data(), document.bytes.size());
+        if (!bytes.empty()) {
+            files.add(path.parent_path() / bin, {bytes});
+        }
+        files.add(path, {document_text(document, scene, gltf::encoded_uri(bin))});
     }
-    const std::string bin = path.stem().string() + ".bin";
-    if (!document.bytes.empty()) {
-        gltf::write_whole(path.parent_path() / bin, {std::string_view(document.bytes.data(), document.bytes.size())});
-    }
-    const std::string json = document_text(document, scene, gltf::encoded_uri(bin));
-    gltf::write_whole(path, {json});
+    files.publish();
 }
 
 }  // namespace diptych::core

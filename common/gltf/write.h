@@ -11,8 +11,8 @@ namespace diptych::core {
 /// scene alone, except those of PNG images, which depend on the version of zlib too. Instances share meshes; emission,
 /// ior, specular, unlit, punctual lights and texture transforms go into their KHR extensions; animations, with the nodes
 /// that they move, as they are. What glTF cannot say: a lens (left out) and an environment (a constant one is noted in
-/// the scene's `extras.diptych.environment`). Each file appears whole or not at all. Throws Error on an extension
-/// unknown, a mesh without triangles, an unwritable file.
+/// the scene's `extras.diptych.environment`). The files appear whole and together, or not at all. Throws Error on an
+/// extension unknown, a mesh without triangles, an unwritable file.
 void write_gltf(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace diptych::core

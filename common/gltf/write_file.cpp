@@ -1,10 +1,7 @@
 #include "gltf/write_file.h"
 
-#include "error.h"
-
 #include <cctype>
 #include <cstring>
-#include <fstream>
 
 namespace diptych::core::gltf {
 
@@ -29,25 +26,6 @@ std::string encoded_uri(const std::string& name) {
         }
     }
     return out;
-}
-
-void write_whole(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces) {
-    std::filesystem::path temporary = path;
-    temporary += ".tmp";
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    for (const std::string_view piece : pieces) {
-        file.write(piece.data(), std::streamsize(piece.size()));
-    }
-    file.close();
-    std::error_code error;
-    if (file) {
-        std::filesystem::rename(temporary, path, error);
-    }
-    if (!file || error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw Error(path.string() + ": cannot be written" + (error ? ": " + error.message() : ""));
-    }
 }
 
 }  // namespace diptych::core::gltf

@@ -1,10 +1,7 @@
-// Files beside and behind a glTF document. For gltf/write.cpp.
+// Names of files beside a glTF document. For gltf/write.cpp.
 #pragma once
 
-#include <filesystem>
-#include <initializer_list>
 #include <string>
-#include <string_view>
 
 namespace diptych::core::gltf {
 
@@ -13,8 +10,5 @@ std::string file_part(std::string name);
 
 /// A relative reference (RFC 3986): everything outside the unreserved characters as %XX.
 std::string encoded_uri(const std::string& name);
-
-/// The pieces in one file, which appears whole or not at all. Throws Error where it cannot be written.
-void write_whole(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces);
 
 }  // namespace diptych::core::gltf

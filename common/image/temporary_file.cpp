@@ -1,0 +1,125 @@
+#include "image/temporary_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "error.h"
+#include "image/dead_parts.h"
+
+namespace diptych::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_stem = 180;  // leaves room for the rest of the name, within the 255 bytes of most disks
+
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// The reason of a failure with this errno, in words that help.
+std::string reason_of(int code, const fs::path& target) {
+    std::error_code ignored;
+    const fs::path folder = folder_of(target);
+    if (code == ENOENT && !fs::exists(folder, ignored)) {
+        return "the folder '" + folder.string() + "' does not exist";
+    }
+    const std::string text = std::strerror(code);
+    return code == EFBIG ? text + " (a limit of the file system or of the process)" : text;
+}
+
+/// Some file systems have no fsync; there nothing is left to wait for.
+bool failed_to_sync(int descriptor) {
+    return ::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOSYS && errno != ENOTSUP;
+}
+
+/// False where the file is gone, because another process swept the folder between its making and its lock.
+bool lock_new_file(int descriptor) {
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        return false;
+    }
+    struct stat status = {};
+    return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
+
+}  // namespace
+
+void fail_to_write(const fs::path& path, const std::string& reason) {
+    throw Error(path.string() + ": cannot write: " + reason);
+}
+
+TemporaryFile::TemporaryFile(fs::path target) : target_(std::move(target)) {
+    static std::atomic<unsigned> counter{0};
+    const fs::path folder = folder_of(target_);
+    remove_dead_parts(folder);
+    while (descriptor_ < 0) {
+        name_ = folder / ("." + target_.filename().string().substr(0, longest_stem) + "." + std::to_string(getpid()) +
+                          "-" + std::to_string(counter++) + part_ending);
+        descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ < 0 && errno != EEXIST) {
+            fail_to_write(target_, reason_of(errno, target_));
+        }
+        if (descriptor_ >= 0 && !lock_new_file(descriptor_)) {
+            ::close(descriptor_);
+            descriptor_ = -1;
+        }
+    }
+}
+
+TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
+    : target_(std::move(other.target_)),
+      name_(std::exchange(other.name_, fs::path())),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+TemporaryFile::~TemporaryFile() {
+    if (!name_.empty()) {
+        ::unlink(name_.c_str());
+    }
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+}
+
+void TemporaryFile::write(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written <= 0) {
+            fail_to_write(target_, written < 0 ? reason_of(errno, target_) : "nothing could be written");
+        }
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void TemporaryFile::sync() {
+    if (failed_to_sync(descriptor_)) {
+        fail_to_write(target_, reason_of(errno, target_));
+    }
+}
+
+void TemporaryFile::publish() {
+    if (::rename(name_.c_str(), target_.c_str()) != 0) {
+        fail_to_write(target_, reason_of(errno, target_));
+    }
+    name_.clear();
+    const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool failed = folder >= 0 && failed_to_sync(folder);  // a folder that cannot be read cannot be synced
+    const int reason = errno;
+    if (folder >= 0) {
+        ::close(folder);
+    }
+    if (failed) {
+        fail_to_write(target_, reason_of(reason, target_));
+    }
+}
+
+}  // namespace diptych::core
