@@ -220,7 +220,7 @@ int run_headless(const HeadlessOptions& options, LoadedScene scene) {
         }
         fmt::print("{}\n{}\n", line_of("moving", moving), line_of("resting", resting));
     }
-    return interrupt.requested() ? exit_interrupted : exit_done;
+    return interrupt.requested() ? interrupt_exit_code() : exit_done;
 }
 
 }  // namespace diptych::core::app

@@ -123,7 +123,7 @@ int run_bench(BenchOptions options) {
     if (!result) {
         report_error(
             fmt::format("{}: interrupted before all frames were measured; there are no figures", request.scene));
-        return exit_interrupted;
+        return interrupt_exit_code();
     }
     if (options.json) {
         print_json(to_json(*result, options));

@@ -105,7 +105,7 @@ int run_converge(ConvergeOptions options) {
     if (!whole) {
         report_error(fmt::format("{}: interrupted; the same command goes on from here", options.folder));
     }
-    return whole ? exit_done : exit_interrupted;
+    return whole ? exit_done : interrupt_exit_code();
 }
 
 /// The command line as typed.

@@ -122,7 +122,7 @@ int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) 
     if (options.json && picture.saved) {
         print_json(picture.json);
     }
-    return picture.interrupted ? exit_interrupted : exit_done;
+    return picture.interrupted ? interrupt_exit_code() : exit_done;
 }
 
 int run_render(RenderOptions options) {

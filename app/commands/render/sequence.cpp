@@ -67,7 +67,7 @@ int render_sequence(const Scene& scene, const RenderRequest& request, bool json,
     if (json) {
         print_json(list);
     }
-    return interrupted ? exit_interrupted : exit_done;
+    return interrupted ? interrupt_exit_code() : exit_done;
 }
 
 }  // namespace diptych::core::app

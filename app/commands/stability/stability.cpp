@@ -71,7 +71,7 @@ int run_stability(const StabilityOptions& options) {
     }
     if (report.interrupted) {
         report_error(fmt::format("interrupted: {} of {} cases were measured", report.cases.size(), cases.size()));
-        return exit_interrupted;
+        return interrupt_exit_code();
     }
     return passes(report) ? exit_done : exit_check_failed;
 }

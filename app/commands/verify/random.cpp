@@ -281,7 +281,7 @@ int verify_random(const VerifyOptions& options) {
     }
     print_suite(options, settings.judge, report, findings);
     if (report.interrupted) {
-        return exit_interrupted;
+        return interrupt_exit_code();
     }
     const bool fails = report.verdict == Verdict::fail || (options.require_pass && report.verdict != Verdict::pass);
     return fails ? exit_check_failed : exit_done;

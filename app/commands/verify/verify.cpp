@@ -176,7 +176,7 @@ int run_verify(VerifyOptions options) {
     if (!suite) {
         report_error(fmt::format("{}: interrupted before all runs were done; there is no verdict",
                                  options.arguments.request.scene));
-        return exit_interrupted;
+        return interrupt_exit_code();
     }
     const std::vector<std::string> figures =
         options.output.empty() ? std::vector<std::string>() : write_suite_figures(options.output, *suite);
