@@ -21,7 +21,8 @@ function(diptych_texts name)
   set(ENTRIES "${entries}")
   configure_file(${PROJECT_SOURCE_DIR}/cmake/texts.h.in ${output}/${ARG_HEADER} @ONLY)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/texts.cpp.in ${output}/${ARG_FUNCTION}.cpp @ONLY)
-  set_source_files_properties(${output}/${ARG_FUNCTION}.cpp PROPERTIES OBJECT_DEPENDS "${files}")
+  set_source_files_properties(${output}/${ARG_FUNCTION}.cpp PROPERTIES
+    OBJECT_DEPENDS "${files}" SKIP_UNITY_BUILD_INCLUSION ON)  # a batch would not know what it depends on
   add_library(${name} STATIC ${output}/${ARG_FUNCTION}.cpp)
   target_include_directories(${name} PUBLIC ${output} PRIVATE ${PROJECT_SOURCE_DIR}/common)
   target_link_libraries(${name} PRIVATE diptych_options)
