@@ -7,7 +7,7 @@
 
 #include "display.h"
 #include "display_colors.h"
-#include "film/film_pixel.h"
+#include "film_values.glsl"
 #include "restir/resampling_memory.h"
 #include "film/tonemap.h"
 
@@ -35,22 +35,6 @@ struct Value {
 
 bool is_colored(uint layer) { return layer <= LAYER_NORMAL; }
 
-vec3 mean_radiance(FilmPixel pixel) {
-    return pixel.samples == 0u ? vec3(0.0f) : (pixel.sum + pixel.compensation) / float(pixel.samples);
-}
-
-// Standard error of the luminance, as in pixel_standard_error, but in fp32: the difference is not visible.
-float standard_error(FilmPixel pixel, FilmMoments moments) {
-    if (pixel.samples < 2u) {
-        return uintBitsToFloat(0x7fc00000u);
-    }
-    float n = float(pixel.samples);
-    vec3 shift = mean_radiance(pixel) - moments.first;
-    vec3 squares = moments.sum_squares + moments.compensation;
-    vec3 variance = max(squares - n * shift * shift, vec3(0.0f)) / ((n - 1.0f) * n);
-    return luminance(sqrt(variance));
-}
-
 Value value_of(DisplayFilm film, uvec2 picture_pixel) {
     Value value;
     value.known = false;
@@ -64,16 +48,19 @@ Value value_of(DisplayFilm film, uvec2 picture_pixel) {
     if (layer == LAYER_RADIANCE || layer == LAYER_SAMPLES || layer == LAYER_NONFINITE) {
         FilmPixel pixel = Pixels(film.pixels).data[index];
         value.known = true;
-        value.v = layer == LAYER_RADIANCE  ? mean_radiance(pixel)
+        value.v = layer == LAYER_RADIANCE  ? film_mean(pixel)
                   : layer == LAYER_SAMPLES ? vec3(float(pixel.samples))
                                            : vec3(float(pixel.nonfinite));
     } else if (layer == LAYER_STANDARD_ERROR && is_there(film.moments)) {
         value.known = true;
-        value.v = vec3(standard_error(Pixels(film.pixels).data[index], Moments(film.moments).data[index]));
+        value.v = vec3(luminance(film_standard_error(Pixels(film.pixels).data[index], Moments(film.moments).data[index])));
     } else if ((layer == LAYER_ALBEDO || layer == LAYER_NORMAL || layer == LAYER_DEPTH) && is_there(film.first_hits)) {
         FilmFirstHit hit = FirstHits(film.first_hits).data[index];
         value.known = true;
-        value.v = layer == LAYER_ALBEDO ? hit.albedo : layer == LAYER_NORMAL ? hit.normal : vec3(hit.depth);
+        float n = max(1.0f, float(Pixels(film.pixels).data[index].samples) + float(Pixels(film.pixels).data[index].nonfinite));
+        value.v = layer == LAYER_ALBEDO   ? film_mean(hit.albedo, n)
+                  : layer == LAYER_NORMAL ? film_mean(hit.normal, n)
+                                          : vec3(film_mean(hit.depth, n));
     } else if (layer >= LAYER_LIGHT_ID && is_there(film.reservoirs)) {
         Reservoir r = Reservoirs(film.reservoirs).data[index];
         value.known = true;

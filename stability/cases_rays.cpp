@@ -1,6 +1,7 @@
 // Where rays start and end: surfaces that must not shadow themselves, lamps close and far, meshes that must not leak.
 #include "case_scenes.h"
 #include "references.h"
+#include "render/film_statistics.h"
 
 namespace diptych::core::stability {
 
@@ -54,7 +55,7 @@ Measured count_self_hits(Backend& backend, Primitive body, const dvec3& eye, con
     m.evaluations = film_totals(film).samples;
     for (const shared::FilmPixel& pixel : film.pixels) {
         m.error += std::abs(
-            std::round(static_cast<double>(pixel.samples) - double{pixel.sum.x} - double{pixel.compensation.x}));
+            std::round(static_cast<double>(pixel.samples) - rounded(pixel.sum)[0]));
     }
     return m;
 }

@@ -3,6 +3,8 @@
 
 #include "case_parts.h"
 #include "pack/alias_table_build.h"
+#include "render/film_statistics.h"
+#include "render/merge_films.h"
 
 namespace diptych::core::stability {
 
@@ -19,25 +21,44 @@ dvec3 true_sum(float value, std::uint64_t count) {
     return sum;
 }
 
+Film film_of(const MeasuredOutput& o) {
+    Film film;
+    film.width = film.height = 1;
+    film.pixels.resize(1);
+    shared::ExactSum& sum = film.pixels[0].sum;
+    for (int k = 0; k < 3; ++k) {
+        sum.low[k].x = o.n[2 * k];
+        sum.high[k].x = o.n[2 * k + 1];
+    }
+    sum.base = o.n[6];
+    film.pixels[0].samples = o.n[7];
+    return film;
+}
+
 Measured measure_film(Backend& backend, double samples, Effort) {
     const auto count = static_cast<std::uint64_t>(std::llround(samples));
-    MeasuredInput p{};
-    p.x[6] = 0.1F;
-    Measured m;
-    for (std::uint64_t done = 0; done < count; done += p.n[1]) {
-        // In portions, so that no device is held for long.
-        p.n[0] = static_cast<uint>(done);
-        p.n[1] = static_cast<uint>(std::min<std::uint64_t>(count - done, 1U << 20U));
-        const MeasuredOutput o = backend.run(Function::film, {&p, 1}).front();
-        std::copy_n(o.y, 6, p.x);
-        m.nonfinite += o.n[1];
-    }
-    m.evaluations = 3 * count;
-    const dvec3 truth = true_sum(p.x[6], count);
-    const dvec3 sum = given_vec3(p, 0) + given_vec3(p, 3);
+    constexpr float value = 0.1F;
+    const dvec3 truth = true_sum(value, count);
     const char* const names[] = {"constant 0.1", "random", "fireflies of 1e6"};
-    for (int c = 0; c < 3; ++c) {
-        worsen(m, relative_error(sum[c], truth[c]), names[c]);
+    Measured m;
+    m.evaluations = 3 * count;
+    for (uint component = 0; component < 3; ++component) {
+        // In portions, so that no device is held for long; their films are merged.
+        std::vector<MeasuredInput> portions;
+        for (std::uint64_t done = 0; done < count; done += 1U << 18U) {
+            MeasuredInput p{};
+            p.x[0] = value;
+            p.n[0] = static_cast<uint>(done);
+            p.n[1] = static_cast<uint>(std::min<std::uint64_t>(count - done, 1U << 18U));
+            p.n[2] = component;
+            portions.push_back(p);
+        }
+        Film whole = film_of({});
+        for (const MeasuredOutput& o : backend.run(Function::film, portions)) {
+            merge_films(film_of(o), whole);
+            m.nonfinite += static_cast<std::uint64_t>(o.y[0]);
+        }
+        worsen(m, relative_error(rounded(whole.pixels[0].sum)[0], truth[static_cast<int>(component)]), names[component]);
     }
     return m;
 }

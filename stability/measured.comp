@@ -29,7 +29,7 @@ void main() {
     for (uint i = 0u; i < 12u; ++i) {
         o.y[i] = 0.0f;
     }
-    for (uint i = 0u; i < 4u; ++i) {
+    for (uint i = 0u; i < 8u; ++i) {
         o.n[i] = 0u;
     }
     uint number = 0u;

@@ -12,23 +12,30 @@ FN vec3 measured_sample(float value, uint n) {
     return vec3(value, random, (n & 4095u) == 0u ? 1.0e6f * value : value * random);
 }
 
-/// A pixel on its way: x 0-2 sum, 3-5 compensation, 6 value; n 0 samples so far, 1 how many to add -> y 0-2, 3-5; n 0
-/// samples, 1 dropped.
+/// A pixel fed with one component of measured_sample: x 0 value; n 0 first sample, 1 how many, 2 component -> n 0-5 the
+/// words of its sum's bins, lowest first, 6 their base, 7 samples averaged; y 0 dropped.
 FN void measure_film(IN(MeasuredInput) p, INOUT(MeasuredOutput) o) {
     FilmPixel pixel;
-    pixel.sum = measured_vec3(p, 0u);
-    pixel.compensation = measured_vec3(p, 3u);
-    pixel.samples = p.n[0];
+    for (int k = 0; k < 3; ++k) {
+        pixel.sum.low[k] = uvec3(0u, 0u, 0u);
+        pixel.sum.high[k] = uvec3(0u, 0u, 0u);
+    }
+    pixel.sum.base = 0u;
+    pixel.samples = 0u;
     pixel.nonfinite = 0u;
     pixel.rays = 0u;
     pixel.ray_wraps = 0u;
     for (uint i = 0u; i < p.n[1]; ++i) {
-        film_add(pixel, measured_sample(p.x[6], p.n[0] + i), 1u);
+        vec3 drawn = measured_sample(p.x[0], p.n[0] + i);
+        film_add(pixel, vec3(p.n[2] == 0u ? drawn.x : p.n[2] == 1u ? drawn.y : drawn.z, 0.0f, 0.0f), 1u);
     }
-    give_vec3(o, 0u, pixel.sum);
-    give_vec3(o, 3u, pixel.compensation);
-    o.n[0] = pixel.samples;
-    o.n[1] = pixel.nonfinite;
+    for (int k = 0; k < 3; ++k) {
+        o.n[2 * k] = pixel.sum.low[k].x;
+        o.n[2 * k + 1] = pixel.sum.high[k].x;
+    }
+    o.n[6] = pixel.sum.base;
+    o.n[7] = pixel.samples;
+    o.y[0] = float(pixel.nonfinite);
 }
 
 /// A reservoir on its way: x 0-7 weights that come by in turn, 8 and 9 the sum so far; n 0 how many come, 1 seed -> y 0

@@ -16,9 +16,9 @@ ASSERT_SIZE(MeasuredInput, 80);
 /// Results, likewise.
 struct MeasuredOutput {
     float y[12];
-    uint n[4];
+    uint n[8];
 };
-ASSERT_SIZE(MeasuredOutput, 64);
+ASSERT_SIZE(MeasuredOutput, 80);
 
 FN vec3 measured_vec3(IN(MeasuredInput) p, uint first) {
     return vec3(p.x[first], p.x[first + 1u], p.x[first + 2u]);

@@ -67,9 +67,8 @@ std::vector<double> Film::sums() const {
     std::vector<double> sums;
     sums.reserve(3 * data_->film.pixels.size());
     for (const core::shared::FilmPixel& pixel : data_->film.pixels) {
-        for (int channel = 0; channel < 3; ++channel) {
-            sums.push_back(static_cast<double>(pixel.sum[channel]) + static_cast<double>(pixel.compensation[channel]));
-        }
+        const core::Rgb sum = core::rounded(pixel.sum);
+        sums.insert(sums.end(), sum.begin(), sum.end());
     }
     return sums;
 }

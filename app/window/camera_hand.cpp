@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "render/film_statistics.h"
 #include "view/camera_control.h"
 #include "view/panel_worker.h"
 
@@ -97,10 +98,9 @@ bool focus_at(const glm::dvec2& point, const KeptFilm& picture, ViewState& state
     }
     const int x = std::clamp(static_cast<int>(point.x * film.width), 0, film.width - 1);
     const int y = std::clamp(static_cast<int>(point.y * film.height), 0, film.height - 1);
-    const double depth =
-        static_cast<double>(film.first_hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
-                                            static_cast<std::size_t>(x)]
-                                .depth);
+    const std::size_t pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(x);
+    const double depth = mean_first_hit(film.pixels[pixel], film.first_hits[pixel]).depth;
     if (!(depth > 0) || !std::isfinite(depth)) {
         return false;
     }

@@ -1,7 +1,6 @@
 #include "render/film.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "render/film_statistics.h"
@@ -23,10 +22,10 @@ void develop_first_hits(const Film& film, LayeredImage& layers) {
     layers.normal = make_image(film.width, film.height, channels);
     layers.depth = make_image(film.width, film.height, 1);
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        const shared::FilmFirstHit& hit = film.first_hits[i];
-        store(*layers.albedo, i, {hit.albedo.x, hit.albedo.y, hit.albedo.z});
-        store(*layers.normal, i, {hit.normal.x, hit.normal.y, hit.normal.z});
-        layers.depth->data[i] = hit.depth;
+        const MeanFirstHit means = mean_first_hit(film.pixels[i], film.first_hits[i]);
+        store(*layers.albedo, i, means.albedo);
+        store(*layers.normal, i, means.normal);
+        layers.depth->data[i] = static_cast<float>(means.depth);
     }
 }
 
@@ -42,49 +41,12 @@ FilmTotals film_totals(const Film& film) {
     return totals;
 }
 
-Rgb pixel_mean(const shared::FilmPixel& pixel) {
-    Rgb mean{};
-    if (pixel.samples == 0) {
-        return mean;
+std::uint32_t samples_of_every_pixel(const Film& film) {
+    std::uint32_t least = film.pixels.empty() ? 0 : std::numeric_limits<std::uint32_t>::max();
+    for (const shared::FilmPixel& pixel : film.pixels) {
+        least = std::min(least, pixel.samples + pixel.nonfinite);
     }
-    for (int channel = 0; channel < channels; ++channel) {
-        const double sum = static_cast<double>(pixel.sum[channel]) + pixel.compensation[channel];
-        mean[channel] = sum / pixel.samples;
-    }
-    return mean;
-}
-
-Rgb pixel_standard_error(const shared::FilmPixel& pixel, const shared::FilmMoments& moments) {
-    Rgb error;
-    error.fill(std::numeric_limits<double>::quiet_NaN());
-    if (pixel.samples < 2) {
-        return error;
-    }
-    const double n = pixel.samples;
-    const Rgb mean = pixel_mean(pixel);
-    for (int channel = 0; channel < channels; ++channel) {
-        const double squares = static_cast<double>(moments.sum_squares[channel]) + moments.compensation[channel];
-        const double shift = mean[channel] - moments.first[channel];
-        const double variance = std::max(0.0, squares - n * shift * shift) / (n - 1);
-        error[channel] = std::sqrt(variance / n);
-    }
-    return error;
-}
-
-std::optional<double> estimated_relmse(const Film& film) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < film.moments.size(); ++i) {
-        const Rgb error = pixel_standard_error(film.pixels[i], film.moments[i]);
-        const Rgb mean = pixel_mean(film.pixels[i]);
-        for (int channel = 0; channel < channels; ++channel) {
-            if (std::isfinite(error[channel])) {
-                sum += error[channel] * error[channel] / (mean[channel] * mean[channel] + 1e-2);
-                ++count;
-            }
-        }
-    }
-    return count == 0 ? std::nullopt : std::optional(sum / static_cast<double>(count));
+    return least;
 }
 
 LayeredImage develop(const Film& film) {

@@ -26,6 +26,9 @@ struct FilmTotals {
 
 FilmTotals film_totals(const Film& film);
 
+/// How many samples every pixel has, dropped ones included.
+std::uint32_t samples_of_every_pixel(const Film& film);
+
 /// Means, standard errors of the means, first-hit means; double inside. A pixel without samples is black.
 LayeredImage develop(const Film& film);
 

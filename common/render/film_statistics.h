@@ -10,10 +10,24 @@ namespace diptych::core {
 
 using Rgb = std::array<double, 3>;
 
+/// The sums rounded to double.
+Rgb rounded(const shared::ExactSum& sum);
+Rgb rounded(const shared::FixedSum& sum);
+double rounded(const shared::ExactScalar& sum);
+
 /// Mean radiance; black where the pixel has no samples.
 Rgb pixel_mean(const shared::FilmPixel& pixel);
 
-/// Standard error of that mean, sqrt(s^2 / n) with the unbiased sample variance; NaN below two samples. It treats the
+/// Means of the first hit over all samples, dropped ones included.
+struct MeanFirstHit {
+    Rgb albedo{};
+    Rgb normal{};
+    double depth = 0;
+};
+
+MeanFirstHit mean_first_hit(const shared::FilmPixel& pixel, const shared::FilmFirstHit& hit);
+
+/// Standard error of the mean radiance, sqrt(s^2 / n) with the unbiased sample variance; NaN below two samples. It treats the
 /// samples as independent, so it overstates the error of a stratified sampler.
 Rgb pixel_standard_error(const shared::FilmPixel& pixel, const shared::FilmMoments& moments);
 

@@ -5,8 +5,8 @@
 
 namespace diptych::core {
 
-/// Adds the samples of `from` to `into`. Sums and first hits are those of all samples, up to the rounding of double;
-/// second moments are moved to the first sample of `into`. Throws Error where size or layers differ.
+/// Adds the samples of `from` to `into`, exactly: the order of merging and the division of the samples among the films
+/// make no difference. Throws Error where size or layers differ.
 void merge_films(const Film& from, Film& into);
 
 }  // namespace diptych::core

@@ -35,6 +35,42 @@ void check(const Scene& scene, const OracleSettings& settings) {
 
 }  // namespace
 
+glm::dvec3 OraclePixel::mean() const {
+    const long double n = std::max<std::uint64_t>(samples, 1);
+    return {double(sum.value(0) / n), double(sum.value(1) / n), double(sum.value(2) / n)};
+}
+
+glm::dvec3 OraclePixel::variance_of_mean() const {
+    const long double n = samples;
+    dvec3 variance(0);
+    for (int i = 0; i < 3; ++i) {
+        const long double mean = sum.value(i) / n;
+        variance[i] = double(std::max(0.0L, squares.value(i) / n - mean * mean) / (n - 1));
+    }
+    return variance;
+}
+
+namespace {
+
+dvec3 fixed_mean(const std::array<std::int64_t, 3>& sum, std::uint64_t n) {
+    const double scale = OraclePixel::fixed_unit / double(n);
+    return {double(sum[0]) * scale, double(sum[1]) * scale, double(sum[2]) * scale};
+}
+
+}  // namespace
+
+glm::dvec3 OraclePixel::mean_albedo() const {
+    return fixed_mean(albedo, samples + nonfinite);
+}
+
+glm::dvec3 OraclePixel::mean_normal() const {
+    return fixed_mean(normal, samples + nonfinite);
+}
+
+double OraclePixel::mean_depth() const {
+    return double(depth.value(0) / static_cast<long double>(samples + nonfinite));
+}
+
 struct Oracle::State {
     OracleSettings settings;
     World world;
@@ -58,20 +94,19 @@ struct Oracle::State {
 void Oracle::State::add(std::size_t index, const PathResult& path, const std::vector<dvec3>& by_depth) {
     OraclePixel& pixel = image.pixels[index];
     pixel.rays += path.rays;
-    pixel.albedo += path.first.base_color;
-    pixel.normal += path.first.normal;
-    pixel.depth += path.first.distance;
+    for (int i = 0; i < 3; ++i) {
+        pixel.albedo[std::size_t(i)] += std::llround(path.first.base_color[i] / OraclePixel::fixed_unit);
+        pixel.normal[std::size_t(i)] += std::llround(path.first.normal[i] / OraclePixel::fixed_unit);
+    }
+    pixel.depth.add({path.first.distance});
     const dvec3& radiance = path.radiance;
     if (is_bad(radiance)) {
         ++pixel.nonfinite;
         return;
     }
-    if (pixel.samples == 0) {
-        pixel.first = radiance;
-    }
     ++pixel.samples;
-    pixel.sum += radiance;
-    pixel.sum_squares += (radiance - pixel.first) * (radiance - pixel.first);
+    pixel.sum.add({radiance.x, radiance.y, radiance.z});
+    pixel.squares.add({radiance.x, radiance.y, radiance.z});
     for (std::size_t k = 0; k < by_depth.size(); ++k) {
         OracleDepth& depth = image.depths[index * by_depth.size() + k];
         depth.sum += by_depth[k];

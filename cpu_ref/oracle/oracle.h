@@ -2,11 +2,13 @@
 // headers.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "oracle/exact_sum.h"
 #include "oracle/path.h"
 
 namespace diptych::core {
@@ -26,15 +28,23 @@ struct OracleSettings {
 /// Sums over one pixel's samples. A sample that is not finite, or negative, adds to `nonfinite` alone; its first hit
 /// counts.
 struct OraclePixel {
-    glm::dvec3 sum{0};
-    glm::dvec3 first{0};        // the first sample
-    glm::dvec3 sum_squares{0};  // of (sample - first)
-    glm::dvec3 albedo{0};       // sums over all samples: base colour,
-    glm::dvec3 normal{0};       // shading normal,
-    double depth = 0;           // and distance from the ray's start, of the first hit; a miss adds nothing
+    /// First hits in these units, so that their sums are exact.
+    static constexpr double fixed_unit = 0x1p-28;
+
+    oracle::ExactSum<3, 3> sum;
+    oracle::ExactSum<3, 3, 2> squares;
+    std::array<std::int64_t, 3> albedo{};  // over all samples: base colour,
+    std::array<std::int64_t, 3> normal{};  // shading normal,
+    oracle::ExactSum<1, 2> depth;                  // and distance from the ray's start, of the first hit; a miss adds nothing
     std::uint64_t samples = 0;
     std::uint64_t nonfinite = 0;
     std::uint64_t rays = 0;
+
+    glm::dvec3 mean() const;
+    glm::dvec3 variance_of_mean() const;  // from two samples on
+    glm::dvec3 mean_albedo() const;
+    glm::dvec3 mean_normal() const;
+    double mean_depth() const;
 };
 
 /// What light that was scattered so many times adds: sums over one pixel's samples.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "clock.h"
@@ -11,41 +12,54 @@ namespace diptych::core {
 
 namespace {
 
-/// A double as the film's pair of floats.
-void split(const glm::dvec3& value, glm::vec3& high, glm::vec3& low) {
-    high = glm::vec3(value);
-    low = glm::vec3(value - glm::dvec3(high));
+/// Digits of the oracle that lie below the film's (numbers/exact_sum.h).
+constexpr int lower_digits = 32;
+
+void put_word(std::uint64_t bin, shared::uint& low, shared::uint& high) {
+    low = static_cast<shared::uint>(bin);
+    high = static_cast<shared::uint>(bin >> 32U);
+}
+
+/// The same bins: the film's digits are the oracle's.
+template <int power>
+shared::ExactSum to_film(const oracle::ExactSum<3, 3, power>& sum) {
+    shared::ExactSum out{};
+    const int base = sum.base - power * lower_digits;
+    out.base = static_cast<shared::uint>(std::max(base, 0));
+    for (int k = std::max(-base, 0); k < 3; ++k) {
+        for (int c = 0; c < 3; ++c) {
+            put_word(sum.sums[c][k], out.low[k + std::min(base, 0)][c], out.high[k + std::min(base, 0)][c]);
+        }
+    }
+    return out;
+}
+
+shared::ExactScalar to_film(const oracle::ExactSum<1, 2>& sum) {
+    shared::ExactScalar out{};
+    const int base = sum.base - lower_digits;
+    out.base = static_cast<shared::uint>(std::max(base, 0));
+    for (int k = std::max(-base, 0); k < 2; ++k) {
+        put_word(sum.sums[0][k], out.low[k + std::min(base, 0)], out.high[k + std::min(base, 0)]);
+    }
+    return out;
+}
+
+shared::FixedSum to_film(const std::array<std::int64_t, 3>& sum) {
+    static_assert(OraclePixel::fixed_unit == 1.0 / 268435456);
+    shared::FixedSum out{};
+    for (int c = 0; c < 3; ++c) {
+        put_word(static_cast<std::uint64_t>(sum[c]), out.low[c], out.high[c]);
+    }
+    return out;
 }
 
 shared::FilmPixel to_film(const OraclePixel& pixel) {
     shared::FilmPixel out{};
-    split(pixel.sum, out.sum, out.compensation);
+    out.sum = to_film(pixel.sum);
     out.samples = static_cast<std::uint32_t>(pixel.samples);
     out.nonfinite = static_cast<std::uint32_t>(pixel.nonfinite);
     out.rays = static_cast<std::uint32_t>(pixel.rays);
     out.ray_wraps = static_cast<std::uint32_t>(pixel.rays >> 32U);
-    return out;
-}
-
-/// The film's squares are about the first sample in float, ours about it in double.
-shared::FilmMoments to_moments(const OraclePixel& pixel) {
-    shared::FilmMoments out{};
-    out.first = glm::vec3(pixel.first);
-    const glm::dvec3 shift = pixel.first - glm::dvec3(out.first);
-    const double n = static_cast<double>(pixel.samples);
-    const glm::dvec3 squares = pixel.sum_squares + 2.0 * shift * (pixel.sum - n * pixel.first) + n * shift * shift;
-    split(squares, out.sum_squares, out.compensation);
-    return out;
-}
-
-shared::FilmFirstHit to_first_hit(const OraclePixel& pixel) {
-    shared::FilmFirstHit out{};
-    const double n = static_cast<double>(pixel.samples + pixel.nonfinite);
-    if (n > 0) {
-        out.albedo = glm::vec3(pixel.albedo / n);
-        out.normal = glm::vec3(pixel.normal / n);
-        out.depth = static_cast<float>(pixel.depth / n);
-    }
     return out;
 }
 
@@ -102,10 +116,10 @@ public:
         for (const OraclePixel& pixel : oracle_->image().pixels) {
             film.pixels.push_back(to_film(pixel));
             if (settings_.standard_error) {
-                film.moments.push_back(to_moments(pixel));
+                film.moments.push_back({to_film(pixel.squares)});
             }
             if (settings_.first_hit_layers) {
-                film.first_hits.push_back(to_first_hit(pixel));
+                film.first_hits.push_back({to_film(pixel.albedo), to_film(pixel.normal), to_film(pixel.depth)});
             }
         }
         return film;

@@ -1,39 +1,35 @@
-// The film's data of one pixel. Sums are pairs of floats (Dekker 1971), so that they stay accurate beyond 10^7 samples
-// in fp32. Squares are taken about the pixel's first sample, so that the variance of a constant pixel is exactly zero.
+// The film's data of one pixel. All sums are exact (numbers/exact_sum.h), so a film depends on which samples it holds,
+// not on the order in which they came.
 #ifndef FILM_PIXEL_H
 #define FILM_PIXEL_H
 
-#include "language/compat.h"
+#include "numbers/exact_sum.h"
 
 SHARED_BEGIN
 
-/// Radiance sums. The estimate is (sum + compensation) / samples.
+/// The estimate is sum / samples.
 struct FilmPixel {
-    vec3 sum;
-    vec3 compensation;
-    uint samples;     // averaged; dropped samples count in `nonfinite` only
-    uint nonfinite;   // dropped: NaN, infinite, negative, or too large for the sum
-    uint rays;        // traced for this pixel, modulo 2^32
-    uint ray_wraps;   // how often `rays` has overflowed
+    ExactSum sum;    // of radiance
+    uint samples;    // averaged; dropped samples count in `nonfinite` only
+    uint nonfinite;  // dropped: NaN, infinite or negative
+    uint rays;       // traced for this pixel, modulo 2^32
+    uint ray_wraps;  // how often `rays` has overflowed
 };
-ASSERT_SIZE(FilmPixel, 40);
+ASSERT_SIZE(FilmPixel, 92);
 
-/// Second moments about `first`, for the layer of standard errors.
+/// For the layer of standard errors.
 struct FilmMoments {
-    vec3 first;
-    vec3 sum_squares;  // of (x - first)
-    vec3 compensation;
+    ExactSum squares;  // of radiance
 };
-ASSERT_SIZE(FilmMoments, 36);
+ASSERT_SIZE(FilmMoments, 76);
 
-/// Means of the first hit over all samples, including dropped ones; a miss counts as zero. These are running means,
-/// not sums, so that they stay accurate for any number of samples.
+/// Sums of the first hit over all samples, including dropped ones. A miss adds nothing.
 struct FilmFirstHit {
-    vec3 albedo;
-    vec3 normal;  // shading normal, world space
-    float depth;  // distance to the camera, metres
+    FixedSum albedo;
+    FixedSum normal;    // shading normal, world space
+    ExactScalar depth;  // distance to the camera, metres
 };
-ASSERT_SIZE(FilmFirstHit, 28);
+ASSERT_SIZE(FilmFirstHit, 68);
 
 /// One sample's first hit.
 struct FirstHit {
@@ -41,23 +37,6 @@ struct FirstHit {
     vec3 normal;
     float depth;
 };
-
-/// sum + compensation += x, componentwise. The rounding error of the sum goes into the compensation. The pair is
-/// normalised, so that the compensation stays below half an ulp of the sum; a larger one would round like any fp32
-/// sum.
-FN void compensated_add(INOUT(vec3) sum, INOUT(vec3) compensation, vec3 x) {
-    PRECISE vec3 t = sum + x;
-    PRECISE vec3 from_sum = (sum - t) + x;
-    PRECISE vec3 from_x = (x - t) + sum;
-    PRECISE vec3 low = compensation;
-    low.x += abs(sum.x) >= abs(x.x) ? from_sum.x : from_x.x;
-    low.y += abs(sum.y) >= abs(x.y) ? from_sum.y : from_x.y;
-    low.z += abs(sum.z) >= abs(x.z) ? from_sum.z : from_x.z;
-    PRECISE vec3 high = t + low;
-    PRECISE vec3 rest = low - (high - t);
-    sum = MUTANT(FILM_SUMS_PLAIN, high, t);
-    compensation = MUTANT(FILM_SUMS_PLAIN, rest, vec3(0.0f, 0.0f, 0.0f));
-}
 
 /// Whether x is NaN, infinite or negative. Tested by the bits, because a compiler may remove `isnan`.
 FN bool is_bad_component(float x) {
@@ -71,30 +50,24 @@ FN bool is_bad_sample(vec3 x) { return is_bad_component(x.x) || is_bad_component
 FN bool film_add(INOUT(FilmPixel) pixel, vec3 radiance, uint rays) {
     pixel.rays += rays;
     pixel.ray_wraps += pixel.rays < rays ? 1u : 0u;
-    if (is_bad_sample(radiance) || is_bad_sample(pixel.sum + radiance)) {
+    if (is_bad_sample(radiance)) {
         pixel.nonfinite += 1u;
         return false;
     }
-    compensated_add(pixel.sum, pixel.compensation, radiance);
+    exact_add(pixel.sum, radiance);
     pixel.samples += 1u;
     return true;
 }
 
-/// Adds the square of a sample that was kept. `samples` is the count that already includes it.
-FN void film_add_moments(INOUT(FilmMoments) moments, vec3 radiance, uint samples) {
-    if (samples == 1u) {
-        moments.first = radiance;
-    }
-    vec3 deviation = radiance - moments.first;
-    compensated_add(moments.sum_squares, moments.compensation, deviation * deviation);
+/// Adds the square of a sample that was kept.
+FN void film_add_moments(INOUT(FilmMoments) moments, vec3 radiance) {
+    exact_add_square(moments.squares, radiance);
 }
 
-/// `samples` is the count that already includes this sample.
-FN void film_add_first_hit(INOUT(FilmFirstHit) film, IN(FirstHit) hit, uint samples) {
-    float share = 1.0f / float(samples);
-    film.albedo += share * (hit.albedo - film.albedo);
-    film.normal += share * (hit.normal - film.normal);
-    film.depth += share * (hit.depth - film.depth);
+FN void film_add_first_hit(INOUT(FilmFirstHit) film, IN(FirstHit) hit) {
+    fixed_add(film.albedo, hit.albedo);
+    fixed_add(film.normal, hit.normal);
+    exact_add(film.depth, hit.depth);
 }
 
 SHARED_END

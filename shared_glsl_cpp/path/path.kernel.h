@@ -335,10 +335,10 @@ FN void settle_direct_light(INOUT(PathState) path, bool occluded) {
 FN void add_path(IN(PathSample) s, INOUT(FilmPixel) film, INOUT(FilmMoments) moments, INOUT(FilmFirstHit) first_hit) {
     bool kept = film_add(film, s.radiance, s.rays);
     if (feature(FEATURE_STANDARD_ERROR) && kept) {
-        film_add_moments(moments, s.radiance, film.samples);
+        film_add_moments(moments, s.radiance);
     }
     if (feature(FEATURE_FIRST_HIT_LAYERS)) {
-        film_add_first_hit(first_hit, s.first_hit, film.samples + film.nonfinite);
+        film_add_first_hit(first_hit, s.first_hit);
     }
 }
 

@@ -38,7 +38,7 @@ TEST_CASE("info counts a scene and its bytes", "[app]") {
     CHECK(json.at("warnings").size() == 2);
     CHECK(json.at("buffers").at("triangles") == 12);
     CHECK(json.at("buffers").at("positions") >= 3 * 12);  // and perhaps padding
-    CHECK(json.at("buffers").at("film") == 10 * 20 * 40);
+    CHECK(json.at("buffers").at("film") == 10 * 20 * 92);
     CHECK_FALSE(json.at("buffers").contains("film_moments"));
     std::uint64_t sum = 0;
     for (const auto& bytes : json.at("buffers")) {

@@ -18,10 +18,10 @@ TEST_CASE("render warns of samples that it dropped, counts them, and writes what
     }
     const TemporaryFolder folder;
     const std::string scene = write_bare_triangle(folder);
-    // A sky near the largest float: the triangle's light samples overflow, and so would sums of the sky itself.
+    // A sky and a sun near the largest float: what the triangle reflects of both overflows. The sky itself does not.
     const ProcessResult result =
         run_diptych(folder, {"render", scene, "-o", folder.file("out.exr"), "--backend", backend, "--env",
-                             "3e38,3e38,3e38", "--integrator", "direct", "--spp", "4", "--size", "16", "--json"});
+                             "3e38,3e38,3e38", "--sun", "180,60,3.3e38", "--integrator", "direct", "--spp", "4", "--size", "16", "--json"});
     INFO(backend << "\n" << result.err);
     REQUIRE(result.exit_code == 0);
     const auto count = nlohmann::json::parse(result.out).at("nonfinite").get<int>();

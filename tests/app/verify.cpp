@@ -91,10 +91,11 @@ TEST_CASE("verify passes with power enough, and says where it lacks some", "[app
 
 TEST_CASE("verify fails on samples that are no radiance", "[app]") {
     const TemporaryFolder folder;
-    // A sky near the largest float: light samples and sums overflow.
+    // A sky and a sun near the largest float: what a surface reflects of both overflows.
     const ProcessResult failed =
         verify(folder, write_bare_triangle(folder),
-               {"--size", "16", "--runs", "3", "--spp", "4", "--integrators", "direct", "--env", "3e38,3e38,3e38"});
+               {"--size", "16", "--runs", "3", "--spp", "4", "--integrators", "direct", "--env", "3e38,3e38,3e38",
+                "--sun", "180,60,3.3e38"});
     INFO(failed.out << failed.err);
     CHECK(failed.exit_code == 1);
     CHECK(contains(failed.out, "samples were not finite"));

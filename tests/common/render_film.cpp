@@ -21,7 +21,7 @@ Film film_of(const std::vector<std::vector<glm::vec3>>& samples) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
         for (const glm::vec3& sample : samples[i]) {
             if (shared::film_add(film.pixels[i], sample, 2)) {
-                shared::film_add_moments(film.moments[i], sample, film.pixels[i].samples);
+                shared::film_add_moments(film.moments[i], sample);
             }
         }
     }
@@ -85,8 +85,8 @@ TEST_CASE("first-hit layers are means over all samples, dropped ones included", 
     film.first_hits.resize(1);
     const shared::FirstHit near{glm::vec3(0.5F), glm::vec3(0, 0, 1), 2};
     const shared::FirstHit far{glm::vec3(1.0F), glm::vec3(0, 1, 0), 4};
-    shared::film_add_first_hit(film.first_hits[0], near, 1);
-    shared::film_add_first_hit(film.first_hits[0], far, 2);
+    shared::film_add_first_hit(film.first_hits[0], near);
+    shared::film_add_first_hit(film.first_hits[0], far);
     const LayeredImage layers = develop(film);
     REQUIRE(layers.albedo);
     CHECK(layers.albedo->at(0, 0, 1) == 0.75F);

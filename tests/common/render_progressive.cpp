@@ -40,7 +40,7 @@ public:
                 }
                 const glm::vec3 radiance(noise ? 2 * ((first + i) % 2) : 1);
                 shared::film_add(film_.pixels[pixel], radiance, 3);
-                shared::film_add_moments(film_.moments[pixel], radiance, film_.pixels[pixel].samples);
+                shared::film_add_moments(film_.moments[pixel], radiance);
                 if (cancel_after > 0 && ++added_ == cancel_after) {
                     *to_cancel = true;
                 }

@@ -78,7 +78,7 @@ TEST_CASE("A sample that is dropped leaves neither mean nor second moment touche
     }
     CHECK(pixel.samples == 3);
     CHECK(pixel.nonfinite == 3);
-    CHECK(pixel.sum == glm::vec3(9, 6, 18));
-    CHECK(moments.first == glm::vec3(1, 2, 2));
-    CHECK(moments.sum_squares == glm::vec3(0 + 4 + 16, 0, 0 + 16 + 64));
+    CHECK(rounded(pixel.sum) == Rgb{9, 6, 18});
+    // (1 + 9 + 25 - 81 / 3) / 2 / 3, and four times that.
+    CHECK(pixel_standard_error(pixel, moments) == Rgb{std::sqrt(8.0 / 6), 0, 2 * std::sqrt(8.0 / 6)});
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -132,21 +133,19 @@ inline std::string describe(const ImageMean& m) {
     return text;
 }
 
-/// Bit for bit, NaN included.
+/// Of structs without padding.
+template <class T>
+bool same_bytes(const T& a, const T& b) {
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+/// Bit for bit.
 inline bool same_film(const Film& a, const Film& b) {
     if (a.pixels.size() != b.pixels.size()) {
         return false;
     }
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        const shared::FilmPixel& p = a.pixels[i];
-        const shared::FilmPixel& q = b.pixels[i];
-        for (int c = 0; c < 3; ++c) {
-            if (shared::floatBitsToUint(p.sum[c]) != shared::floatBitsToUint(q.sum[c]) ||
-                shared::floatBitsToUint(p.compensation[c]) != shared::floatBitsToUint(q.compensation[c])) {
-                return false;
-            }
-        }
-        if (p.samples != q.samples || p.nonfinite != q.nonfinite || p.rays != q.rays || p.ray_wraps != q.ray_wraps) {
+        if (!same_bytes(a.pixels[i], b.pixels[i])) {
             return false;
         }
     }

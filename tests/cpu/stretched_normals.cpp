@@ -59,7 +59,7 @@ TEST_CASE("Normals of stretched, sheared and mirrored instances stay across thei
         CHECK(m.nonfinite == 0);
         CHECK(m.mean[0] == Approx(0.5 / std::numbers::pi * glm::dot(normal, sun)).epsilon(1e-4));
         for (int c = 0; c < 3; ++c) {
-            CHECK(film.first_hits[0].normal[c] == Approx(normal[c]).epsilon(1e-4).margin(1e-5));
+            CHECK(mean_first_hit(film.pixels[0], film.first_hits[0]).normal[static_cast<std::size_t>(c)] == Approx(normal[c]).epsilon(1e-4).margin(1e-5));
         }
     }
 }

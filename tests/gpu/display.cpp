@@ -91,8 +91,9 @@ Film plain_film(int columns, int rows, const vec3& radiance) {
     film.height = rows;
     film.pixels.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
     for (shared::FilmPixel& pixel : film.pixels) {
-        pixel.sum = 4.0F * radiance;
-        pixel.samples = 4;
+        for (int sample = 0; sample < 4; ++sample) {
+            shared::film_add(pixel, radiance, 0);
+        }
     }
     return film;
 }
@@ -127,6 +128,10 @@ TEST_CASE("Layers of a film are shown in their colours") {
     PathRenderer renderer(display.gpu, generated_scene("cornell", layered_settings(Integrator::path)));
     add_samples(renderer, 3);
     const Film film = renderer.film();
+    const LayeredImage layers = develop(film);
+    const auto layer_color = [](const Image& image, std::size_t i) {
+        return vec3(image.data[3 * i], image.data[3 * i + 1], image.data[3 * i + 2]);
+    };
     DisplayRequest request{.left = renderer.device_film(), .low = 0.0F, .high = 1.0F};
     const auto check = [&](DisplayLayer layer, float low, float high, const std::function<vec3(std::size_t)>& color) {
         CAPTURE(static_cast<int>(layer));
@@ -136,10 +141,10 @@ TEST_CASE("Layers of a film are shown in their colours") {
         const Image shown = display.show(request);
         CHECK(worst(shown, [&](int x, int y) { return color(static_cast<std::size_t>(y * width + x)); }) < 1.5F);
     };
-    check(DisplayLayer::albedo, 0, 1, [&](std::size_t i) { return shared::srgb_encode(film.first_hits[i].albedo); });
-    check(DisplayLayer::normal, 0, 1, [&](std::size_t i) { return 0.5F * film.first_hits[i].normal + 0.5F; });
+    check(DisplayLayer::albedo, 0, 1, [&](std::size_t i) { return shared::srgb_encode(layer_color(*layers.albedo, i)); });
+    check(DisplayLayer::normal, 0, 1, [&](std::size_t i) { return 0.5F * layer_color(*layers.normal, i) + 0.5F; });
     check(DisplayLayer::depth, 2, 4,
-          [&](std::size_t i) { return shared::ramp_color((film.first_hits[i].depth - 2) / 2); });
+          [&](std::size_t i) { return shared::ramp_color((layers.depth->data[i] - 2) / 2); });
     check(DisplayLayer::samples, 0, 4,
           [&](std::size_t i) { return shared::ramp_color(static_cast<float>(film.pixels[i].samples) / 4); });
     check(DisplayLayer::nonfinite, 0, 1,
@@ -192,7 +197,9 @@ TEST_CASE("A split shows one film on either side of its divider, whatever their 
     FilmUploader right(display.gpu);
     Film columns = plain_film(4, 2, vec3(0));  // each pixel of its own red
     for (std::size_t i = 0; i < columns.pixels.size(); ++i) {
-        columns.pixels[i].sum.x = 0.1F * static_cast<float>(i) * 4;
+        for (int sample = 0; sample < 4; ++sample) {
+            shared::exact_add(columns.pixels[i].sum, vec3(0.1F * static_cast<float>(i), 0, 0));
+        }
     }
     DisplayRequest request{.left = left.upload(columns),
                            .right = right.upload(plain_film(width, height, {0, 0.5F, 0})),

@@ -71,12 +71,13 @@ std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<s
     const Film host = read_film(gpu, film);
     std::vector<TracedRay> traced;
     for (const shared::FilmFirstHit& result : host.first_hits) {
-        traced.push_back({.hit = {.instance = std::bit_cast<std::uint32_t>(result.albedo.x),
-                                  .geometry = std::bit_cast<std::uint32_t>(result.albedo.y),
-                                  .primitive = std::bit_cast<std::uint32_t>(result.albedo.z),
-                                  .barycentrics = {result.normal.x, result.normal.y},
-                                  .t = result.normal.z},
-                          .blocked = result.depth != 0.0F});
+        traced.push_back({.hit = {.instance = result.albedo.low.x,
+                                  .geometry = result.albedo.low.y,
+                                  .primitive = result.albedo.low.z,
+                                  .barycentrics = {std::bit_cast<float>(result.normal.low.x),
+                                                   std::bit_cast<float>(result.normal.low.y)},
+                                  .t = std::bit_cast<float>(result.normal.low.z)},
+                          .blocked = result.depth.base != 0});
     }
     return traced;
 }

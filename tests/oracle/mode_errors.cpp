@@ -18,20 +18,21 @@ struct Errors {
     std::uint64_t spp;
 };
 
+double mean_of(const dvec3& v) {
+    return (v.x + v.y + v.z) / 3;
+}
+
 Errors errors_of(const OracleImage& image) {
     const double count = double(image.pixels.size());
     double mean = 0;
     double variance = 0;
     for (const OraclePixel& pixel : image.pixels) {
-        mean += (pixel.sum.x + pixel.sum.y + pixel.sum.z) / 3 / double(pixel.samples) / count;
+        mean += mean_of(pixel.mean()) / count;
     }
     double relative = 0;
     for (const OraclePixel& pixel : image.pixels) {
-        const double n = double(pixel.samples);
-        const dvec3 shifted = pixel.sum / n - pixel.first;
-        const dvec3 squares = max(pixel.sum_squares / n - shifted * shifted, dvec3(0)) / (n - 1);
-        const double square = (squares.x + squares.y + squares.z) / 3;  // channels that err together
-        const double own = (pixel.sum.x + pixel.sum.y + pixel.sum.z) / 3 / n;
+        const double square = mean_of(pixel.variance_of_mean());  // channels that err together
+        const double own = mean_of(pixel.mean());
         variance += square / count / count;
         relative += square / (own * own + 1e-4 * mean * mean) / count;
     }

@@ -33,10 +33,8 @@ Estimate Rendered::all() const {
     dvec3 mean(0);
     dvec3 variance(0);
     for (const OraclePixel& pixel : image.pixels) {
-        const double n = double(pixel.samples);
-        const dvec3 shifted = pixel.sum / n - pixel.first;
-        mean += pixel.sum / n;
-        variance += max(pixel.sum_squares / n - shifted * shifted, dvec3(0)) / (n - 1);
+        mean += pixel.mean();
+        variance += pixel.variance_of_mean();
     }
     const double count = double(image.pixels.size());
     return {mean / count, sqrt(variance) / count};

@@ -36,7 +36,7 @@ struct ProbeInput {
 };
 ASSERT_SIZE(ProbeInput, 240);
 
-CONST uint PROBE_EXACT = 16u;
+CONST uint PROBE_EXACT = 20u;
 CONST uint PROBE_VALUES = 16u;
 
 /// Results. The host compares `exact` bit for bit; a value may differ by bound * 2^-23 * scale, where the scale says
@@ -51,7 +51,7 @@ struct ProbeOutput {
     uint path;
     uint too_sharp;  // 1: values were left out, as rounding alone moves them too far for a comparison to mean anything
 };
-ASSERT_SIZE(ProbeOutput, 208);
+ASSERT_SIZE(ProbeOutput, 224);
 
 FN void put_bits(INOUT(ProbeOutput) o, uint bits) {
     o.exact[o.exact_count] = bits;

@@ -125,10 +125,65 @@ FN void probe_power(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_relative(o, pow_poly(p.u.y, 40.0f * p.u.z));
 }
 
-FN void probe_film_sums(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+FN ExactSum empty_exact_sum() {
+    ExactSum s;
+    for (int k = 0; k < 3; ++k) {
+        s.low[k] = uvec3(0u, 0u, 0u);
+        s.high[k] = uvec3(0u, 0u, 0u);
+    }
+    s.base = 0u;
+    return s;
+}
+
+FN void put_bits3(INOUT(ProbeOutput) o, uvec3 bits) {
+    put_bits(o, bits.x);
+    put_bits(o, bits.y);
+    put_bits(o, bits.z);
+}
+
+FN void put_exact_sum(INOUT(ProbeOutput) o, IN(ExactSum) s) {
+    for (int k = 0; k < 3; ++k) {
+        put_bits3(o, s.low[k]);
+        put_bits3(o, s.high[k]);
+    }
+    put_bits(o, s.base);
+}
+
+FN void probe_exact_digits(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    int digit = int(p.words.w % 6u);
+    put_bits(o, float_mantissa(p.number));
+    put_bits(o, uint(float_position(p.number)));
+    put_bits(o, digit_of(p.words.x, int(p.words.y % 200u), digit));
+    put_bits(o, square_digit(p.number, digit));
+    put_bits(o, carry_of(p.words.x + p.words.y, p.words.y));
+    put_bits(o, uint(fixed_point(p.axis.x)));
+    uvec3 low = uvec3(p.words.x, p.words.y, p.words.z);
+    uvec3 high = uvec3(0u, 0u, 0u);
+    add_words(low, high, uvec3(p.words.y, p.words.z, p.words.w));
+    put_bits3(o, low);
+    put_bits3(o, high);
+}
+
+FN void probe_exact_sums(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    ExactSum s = empty_exact_sum();
+    exact_add(s, abs(p.vertex));
+    exact_add_square(s, p.radiance);
+    raise_base(s, 3 + int(p.words.x & 3u));
+    put_exact_sum(o, s);
+}
+
+FN void probe_fixed_sums(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    FixedSum s;
+    s.low = uvec3(p.words.x, p.words.y, p.words.z);
+    s.high = uvec3(0u, 0u, 0u);
+    fixed_add(s, p.axis);
+    put_bits3(o, s.low);
+    put_bits3(o, s.high);
+}
+
+FN void probe_film_counts(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     FilmPixel pixel;
-    pixel.sum = p.vertex;
-    pixel.compensation = p.vertex * 2.9802322387695312e-8f;
+    pixel.sum = empty_exact_sum();
     pixel.samples = p.set.x;
     pixel.nonfinite = p.words.y;
     pixel.rays = p.words.x;
@@ -138,39 +193,54 @@ FN void probe_film_sums(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put_bits(o, pixel.samples);
     put_bits(o, pixel.nonfinite);
     put_bits(o, pixel.rays);
-    put_same3(o, pixel.sum);
-    put_same3(o, pixel.compensation);
-    vec3 sum = p.edge_1;
-    vec3 rest = vec3(0.0f, 0.0f, 0.0f);
-    compensated_add(sum, rest, p.edge_2);
-    put_same3(o, sum);
-    put_same3(o, rest);
+}
+
+FN void probe_film_sums(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    FilmPixel pixel;
+    pixel.sum = empty_exact_sum();
+    pixel.sum.base = p.set.x & 1u;
+    pixel.sum.low[0] = uvec3(p.words.x, p.words.y, p.words.z);
+    pixel.sum.low[1] = uvec3(p.words.w, p.words.x, p.words.y);
+    pixel.samples = 0u;
+    pixel.nonfinite = 0u;
+    pixel.rays = 0u;
+    pixel.ray_wraps = 0u;
+    film_add(pixel, p.radiance, 7u);
+    film_add(pixel, abs(p.edge_1), 7u);
+    put_exact_sum(o, pixel.sum);
 }
 
 FN void probe_film_moments(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     FilmMoments moments;
-    moments.first = p.color;
-    moments.sum_squares = abs(p.vertex);
-    moments.compensation = vec3(0.0f, 0.0f, 0.0f);
-    film_add_moments(moments, p.color_2, p.set.x);
-    put_same3(o, moments.first);
-    put_same3(o, moments.sum_squares);
-    put_same3(o, moments.compensation);
+    moments.squares = empty_exact_sum();
+    film_add_moments(moments, abs(p.vertex));
+    film_add_moments(moments, p.color_2);
+    put_exact_sum(o, moments.squares);
 }
 
 FN void probe_film_first_hit(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     FilmFirstHit film;
-    film.albedo = p.color;
-    film.normal = p.axis;
-    film.depth = p.u.x;
+    film.albedo.low = uvec3(p.words.x, p.words.y, p.words.z);
+    film.albedo.high = uvec3(0u, 0u, 0u);
+    film.normal.low = uvec3(0u, 0u, 0u);
+    film.normal.high = uvec3(0u, 0u, 0u);
+    film.depth.low = uvec2(p.words.x, p.words.y);
+    film.depth.high = uvec2(0u, 0u);
+    film.depth.base = 0u;
     FirstHit hit;
     hit.albedo = p.color_2;
     hit.normal = p.axis_2;
     hit.depth = p.u.y;
-    film_add_first_hit(film, hit, p.set.y);
-    put3(o, film.albedo, 1.0f);
-    put3(o, film.normal, 1.0f);
-    put(o, film.depth, 1.0f);
+    film_add_first_hit(film, hit);
+    put_bits3(o, film.albedo.low);
+    put_bits3(o, film.albedo.high);
+    put_bits3(o, film.normal.low);
+    put_bits3(o, film.normal.high);
+    put_bits(o, film.depth.low.x);
+    put_bits(o, film.depth.low.y);
+    put_bits(o, film.depth.high.x);
+    put_bits(o, film.depth.high.y);
+    put_bits(o, film.depth.base);
 }
 
 FN void probe_path_record(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
@@ -214,9 +284,13 @@ SHARED_END
     X(exp2, 1, 0, "precise")                                                                                           \
     X(logarithms, 1, 0, "precise")                                                                                     \
     X(power, 1, 0, "precise log2 and exp2 about one product")                                                          \
-    X(film_sums, 0, 0, "precise: a compensated sum that rounds otherwise is none")                                     \
-    X(film_moments, 0, 0, "precise sums of one product")                                                               \
-    X(film_first_hit, 4, 0, "one division")                                                                            \
+    X(exact_digits, 0, 0, "integers")                                                                                  \
+    X(exact_sums, 0, 0, "integers")                                                                                    \
+    X(fixed_sums, 0, 0, "integers, but for the floor of a product with a power of two")                                \
+    X(film_counts, 0, 0, "integers")                                                                                   \
+    X(film_sums, 0, 0, "integers")                                                                                     \
+    X(film_moments, 0, 0, "integers")                                                                                  \
+    X(film_first_hit, 0, 0, "integers, but for the floor of a product with a power of two")                            \
     X(path_record, 0, 0, "integers and copies")
 
 #endif

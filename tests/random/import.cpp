@@ -5,6 +5,7 @@
 #include "file_scene.h"
 #include "random_fixture.h"
 #include "random_scene/scene_files.h"
+#include "render/film_statistics.h"
 #include "render/film_tiles.h"
 #include "stats/bias_verdict.h"
 
@@ -32,7 +33,7 @@ struct Layers {
         const glm::dvec3 values[3] = {albedo, normal + 1.0, glm::dvec3(depth)};
         for (int i = 0; i < 3; ++i) {
             films[i].pixels[pixel].samples = 1;
-            films[i].pixels[pixel].sum = glm::vec3(values[i]);
+            shared::exact_add(films[i].pixels[pixel].sum, glm::vec3(glm::max(values[i], glm::dvec3(0))));
         }
     }
 };
@@ -55,8 +56,9 @@ void render_runs(const Scene& scene, const RenderSettings& settings, LayerRuns& 
         const Film film = renderer->film();
         Layers layers(settings.width, settings.height);
         for (std::size_t i = 0; i < film.first_hits.size(); ++i) {
-            const shared::FilmFirstHit& hit = film.first_hits[i];
-            layers.set(i, hit.albedo, hit.normal, hit.depth);
+            const MeanFirstHit hit = mean_first_hit(film.pixels[i], film.first_hits[i]);
+            layers.set(i, {hit.albedo[0], hit.albedo[1], hit.albedo[2]}, {hit.normal[0], hit.normal[1], hit.normal[2]},
+                       hit.depth);
         }
         keep(layers, out);
     }

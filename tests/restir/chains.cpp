@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "render/film_statistics.h"
 #include "scene/orbit.h"
 #include "pose/pose.h"
 
@@ -34,11 +35,8 @@ RenderSettings sized(RenderSettings settings, std::uint32_t side) {
 }
 
 double sum_of(const shared::FilmPixel& p) {
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) {
-        sum += static_cast<double>(p.sum[i]) + static_cast<double>(p.compensation[i]);
-    }
-    return sum / 3;
+    const Rgb sum = rounded(p.sum);
+    return (sum[0] + sum[1] + sum[2]) / 3;
 }
 
 }  // namespace

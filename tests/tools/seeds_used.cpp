@@ -81,7 +81,9 @@ public:
     Film film() const override {
         Film film = renderer_->film();
         for (shared::FilmPixel& pixel : film.pixels) {
-            pixel.sum += brighter_ ? 1000.0F * static_cast<float>(pixel.samples) : 0.0F;
+            if (brighter_) {
+                shared::exact_add(pixel.sum, glm::vec3(1000.0F * static_cast<float>(pixel.samples)));
+            }
         }
         return film;
     }

@@ -37,7 +37,7 @@ Film noise(double mean, int samples, std::uint32_t seed) {
             const glm::vec3 x =
                 glm::vec3(static_cast<float>(mean)) + glm::vec3(uniform(random), uniform(random), uniform(random));
             REQUIRE(shared::film_add(film.pixels[i], x, 2));
-            shared::film_add_moments(film.moments[i], x, film.pixels[i].samples);
+            shared::film_add_moments(film.moments[i], x);
         }
     }
     return film;
