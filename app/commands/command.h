@@ -15,6 +15,7 @@ namespace diptych::core::app {
 using Run = std::function<int()>;
 
 void add_render(CLI::App& app, Run& run);
+void add_merge(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_generate(CLI::App& app, Run& run);

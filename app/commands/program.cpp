@@ -42,6 +42,7 @@ int run_command(int argc, char** argv) {
     app.require_subcommand(1);
     Run run;
     add_render(app, run);
+    add_merge(app, run);
     add_compare(app, run);
     add_info(app, run);
     add_generate(app, run);

@@ -127,7 +127,11 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
     } else {
         add_option(command, "--integrator", name_of(settings.integrator));
     }
-    add_option(command, "--spp", spp);
+    if (request.samples) {
+        add_option(command, "--samples", range_text({request.samples->first, request.samples->first + spp}));
+    } else {
+        add_option(command, "--spp", spp);
+    }
     add_picture_options(command, request);
     if (!request.clip.empty()) {
         add_option(command, "--clip", request.clip);

@@ -71,10 +71,11 @@ void check_writable(const fs::path& path) {
 }
 
 void write_exr_channels(const fs::path& path, const Image& image, const std::vector<std::string>& channel_names,
-                        const std::map<std::string, std::string>& attributes) {
+                        const std::map<std::string, std::string>& attributes, const WordChannels* words) {
     require_shape(path, image, channel_names.size() == static_cast<size_t>(image.channels));
-    encode_and_write(
-        path, [&](const ImageLibrary& library) { return library.encode_exr(image, channel_names, attributes); });
+    encode_and_write(path, [&](const ImageLibrary& library) {
+        return library.encode_exr(image, channel_names, attributes, words);
+    });
 }
 
 std::vector<unsigned char> png_bytes(const fs::path& path, const Image& display_values) {

@@ -11,6 +11,7 @@
 #include "image/chromaticities.h"
 #include "image/image.h"
 #include "image/pixel_window.h"
+#include "image/word_channels.h"
 
 namespace diptych::core {
 
@@ -44,10 +45,18 @@ struct RawImage {
 RawImage read_raw(const std::filesystem::path& path, const std::string& layer = "",
                   const std::vector<std::string>& beside = {});
 
-/// float32, zip-compressed, one part. Channel i of the image gets channel_names[i].
+/// The string attributes of a file that OpenImageIO reads. Throws an Error naming file and reason.
+std::map<std::string, std::string> read_attributes(const std::filesystem::path& path);
+
+/// The words that write_exr_channels has put behind a picture; none where the file has none. Throws an Error naming
+/// file and reason.
+std::optional<WordChannels> read_words(const std::filesystem::path& path);
+
+/// float32, zip-compressed, one part. Channel i of the image gets channel_names[i]. With `words`, unless null, they
+/// are more channels, and the compression is rle.
 void write_exr_channels(const std::filesystem::path& path, const Image& image,
                         const std::vector<std::string>& channel_names,
-                        const std::map<std::string, std::string>& attributes);
+                        const std::map<std::string, std::string>& attributes, const WordChannels* words = nullptr);
 
 /// 8-bit PNG of 1 or 3 channels of display values (sRGB encoded already); clamped to [0, 1], NaN becomes 0.
 void write_png(const std::filesystem::path& path, const Image& display_values);

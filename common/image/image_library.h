@@ -14,6 +14,7 @@
 #include "image/image.h"
 #include "image/picture_layers.h"
 #include "image/pixel_window.h"
+#include "image/word_channels.h"
 
 namespace diptych::core {
 
@@ -46,6 +47,8 @@ public:
     /// Channels `begin` to `end` of a part, row by row. Integers are scaled to [0, 1].
     virtual void read(size_t part, int begin, int end, std::span<float> values) = 0;
     virtual void read(size_t part, int begin, int end, std::span<std::uint8_t> values) = 0;
+    /// As they are stored, for channels of 32-bit integers.
+    virtual void read(size_t part, int begin, int end, std::span<std::uint32_t> words) = 0;
 };
 
 /// Every function throws std::runtime_error with the reason, never Error. The type information of standard
@@ -61,8 +64,9 @@ public:
     /// Whether a format can be read, by OpenImageIO's name for it.
     virtual bool reads(const std::string& format) const = 0;
 
+    /// With `words`, unless null, behind the image's own channels.
     virtual Bytes encode_exr(const Image& image, const std::vector<std::string>& channel_names,
-                             const std::map<std::string, std::string>& attributes) const = 0;
+                             const std::map<std::string, std::string>& attributes, const WordChannels* words) const = 0;
     virtual Bytes encode_hdr(const Image& image) const = 0;
     /// 1 to 4 channels; alpha is stored as it is. `srgb`: whether the file says that it holds sRGB.
     virtual Bytes encode_png(const ByteImage& image, bool srgb) const = 0;

@@ -159,15 +159,60 @@ RawImage read_by_library(const fs::path& path, const std::string& layer, const s
 
 }  // namespace
 
-RawImage read_raw(const fs::path& path, const std::string& layer, const std::vector<std::string>& beside) {
+namespace {
+
+/// Names the file where it cannot be read.
+template <class Read>
+auto read_checked(const fs::path& path, const Read& read) {
     try {
         check_file(path);
-        return begins_like_radiance(path) ? read_radiance_raw(path, layer) : read_by_library(path, layer, beside);
+        return read();
     } catch (const std::bad_alloc&) {
         throw Error(path.string() + ": cannot read: the picture does not fit in memory");
     } catch (const std::runtime_error& error) {
         throw Error(path.string() + ": cannot read: " + error.what());
     }
+}
+
+}  // namespace
+
+RawImage read_raw(const fs::path& path, const std::string& layer, const std::vector<std::string>& beside) {
+    return read_checked(path, [&] {
+        return begins_like_radiance(path) ? read_radiance_raw(path, layer) : read_by_library(path, layer, beside);
+    });
+}
+
+std::map<std::string, std::string> read_attributes(const fs::path& path) {
+    return read_checked(path, [&] { return image_library().open(path)->headers()[0].attributes; });
+}
+
+std::optional<WordChannels> read_words(const fs::path& path) {
+    return read_checked(path, [&]() -> std::optional<WordChannels> {
+        const std::unique_ptr<PictureFile> file = image_library().open(path);
+        const PictureHeader& header = file->headers()[0];
+        const std::vector<std::string>& names = header.part.channels;
+        const auto is_word = [](const std::string& name) { return name.starts_with(word_prefix); };
+        const auto begin = std::find_if(names.begin(), names.end(), is_word);
+        const auto end = std::find_if_not(begin, names.end(), is_word);
+        if (!file->exr() || begin == end) {
+            return std::nullopt;
+        }
+        WordChannels words;
+        words.width = header.stored.width;
+        words.height = header.stored.height;
+        for (auto name = begin; name != end; ++name) {
+            words.names.push_back(name->substr(std::string_view(word_prefix).size()));
+        }
+        const std::string reason = size_claim_problem(words.width, words.height,
+                                                      static_cast<std::int64_t>(words.names.size()), fs::file_size(path));
+        if (!reason.empty()) {
+            fail(reason);
+        }
+        words.data.resize(static_cast<std::size_t>(words.width) * static_cast<std::size_t>(words.height) *
+                          words.names.size());
+        file->read(0, static_cast<int>(begin - names.begin()), static_cast<int>(end - names.begin()), words.data);
+        return words;
+    });
 }
 
 }  // namespace diptych::core

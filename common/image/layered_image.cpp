@@ -70,7 +70,7 @@ float srgb_decoded(float encoded) {
     return static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
 }
 
-void write_exr(const std::filesystem::path& path, const LayeredImage& layers) {
+void write_exr(const std::filesystem::path& path, const LayeredImage& layers, const WordChannels* words) {
     struct Part {
         const Image* image;
         const std::vector<std::string>* names;
@@ -111,7 +111,26 @@ void write_exr(const std::filesystem::path& path, const LayeredImage& layers) {
             attributes[metadata_prefix + name] = value;
         }
     }
-    write_exr_channels(path, all, names, attributes);
+    write_exr_channels(path, all, names, attributes, words);
+}
+
+namespace {
+
+std::map<std::string, std::string> metadata_of(const std::map<std::string, std::string>& attributes) {
+    const std::string prefix = metadata_prefix;
+    std::map<std::string, std::string> metadata;
+    for (const auto& [name, value] : attributes) {
+        if (name.compare(0, prefix.size(), prefix) == 0) {
+            metadata[name.substr(prefix.size())] = value;
+        }
+    }
+    return metadata;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> read_metadata(const std::filesystem::path& path) {
+    return metadata_of(read_attributes(path));
 }
 
 Image linear_color(const RawImage& raw) {
@@ -149,12 +168,7 @@ LayeredImage read_image(const std::filesystem::path& path, const std::string& la
             layers.*optional_layer.image = extract(raw, optional_layer.channels);
         }
     }
-    const std::string prefix = metadata_prefix;
-    for (const auto& [name, value] : raw.attributes) {
-        if (name.compare(0, prefix.size(), prefix) == 0) {
-            layers.metadata[name.substr(prefix.size())] = value;
-        }
-    }
+    layers.metadata = metadata_of(raw.attributes);
     layers.display = raw.display;
     layers.data = raw.data;
     layers.layer = raw.layer;

@@ -24,10 +24,14 @@ struct LayeredImage {
     std::string layer;    // the layer of the file that `color` is, where nobody named one and the file holds others
 };
 
-/// One part, float32, zip: R G B, then stderr.R/G/B, albedo.R/G/B, normal.X/Y/Z, depth.Z for the layers that are there;
+/// float32, zip: R G B, then stderr.R/G/B, albedo.R/G/B, normal.X/Y/Z, depth.Z for the layers that are there;
 /// metadata as string attributes `diptych:NAME`. Values survive bit for bit; metadata with an empty value is not
-/// written. Equal input gives equal bytes. Throws an Error naming file and reason.
-void write_exr(const std::filesystem::path& path, const LayeredImage& layers);
+/// written. With `words`, unless null, as more channels, and rle. Equal input gives equal bytes. Throws an Error naming file and
+/// reason.
+void write_exr(const std::filesystem::path& path, const LayeredImage& layers, const WordChannels* words = nullptr);
+
+/// The metadata of an EXR file that write_exr has written. Throws an Error naming file and reason.
+std::map<std::string, std::string> read_metadata(const std::filesystem::path& path);
 
 /// EXR with the layers it has, or any other picture as colour alone. The picture is what the display window shows. A
 /// layer or part of an EXR can be chosen by name; then it is the colour, alone. Integer files are decoded from sRGB to

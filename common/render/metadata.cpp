@@ -60,6 +60,10 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
         }
     }
     add("spp", outcome.spp);
+    add("samples", outcome.samples.text());
+    add("fingerprint", outcome.fingerprint);
+    add("standard_error", yes_or_no(settings.standard_error));
+    add("first_hit_layers", yes_or_no(settings.first_hit_layers));
     add("width", settings.width);
     add("height", settings.height);
     add_number(ranges::max_depth, settings.max_depth);
@@ -90,6 +94,7 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("tonemap", request.tonemap);
     add("interrupted", yes_or_no(outcome.interrupted));
     add("uneven", yes_or_no(outcome.uneven));
+    add("look_at", outcome.look_at > 0 ? fmt::format("{}", outcome.look_at) : "");
     add("seconds", outcome.seconds);
     add("rays", outcome.rays);
     add("nonfinite", outcome.nonfinite);

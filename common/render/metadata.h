@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/request.h"
+#include "render/sample_ranges.h"
 
 namespace diptych::core {
 
@@ -22,7 +23,10 @@ struct RenderOutcome {
     PictureMaker maker;
     std::string device;
     std::uint32_t spp = 0;  // that every pixel has been given
+    SampleRanges samples;   // which; none where frames go on from one another
+    std::string fingerprint;  // of the scene, where the sums are kept
     bool interrupted = false;
+    std::uint64_t look_at = 0;  // ProgressiveResult's
     bool uneven = false;  // cut short within a sample: some pixels have more than `spp`
     double seconds = 0;
     std::uint64_t rays = 0;

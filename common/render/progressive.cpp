@@ -7,6 +7,7 @@
 #include "clock.h"
 #include "error.h"
 #include "render/film_statistics.h"
+#include "render/merge_films.h"
 
 namespace diptych::core {
 
@@ -43,12 +44,13 @@ std::uint32_t next_batch(const ProgressiveTarget& target, std::uint32_t done, do
     return static_cast<std::uint32_t>(std::min({batch, limit - done, look_at - done}));
 }
 
-std::uint32_t samples_of_every_pixel(const Film& film) {
-    std::uint32_t least = film.pixels.empty() ? 0 : std::numeric_limits<std::uint32_t>::max();
-    for (const shared::FilmPixel& pixel : film.pixels) {
-        least = std::min(least, pixel.samples + pixel.nonfinite);
+/// The renderer's film with the samples that were taken before.
+Film whole_film(const Renderer& renderer, const Film* base) {
+    Film film = renderer.film();
+    if (base != nullptr) {
+        merge_films(*base, film);
     }
-    return least;
+    return film;
 }
 
 /// Looks at the film now and then: what only it knows costs a copy.
@@ -56,14 +58,14 @@ class FilmWatch {
 public:
     explicit FilmWatch(const std::function<double()>& now) : now_(now), next_(now() + look_interval) {}
 
-    void look(const Renderer& renderer, Progress& progress, const ProgressiveHooks& hooks) {
+    void look(const Renderer& renderer, double base_rays, Progress& progress, const ProgressiveHooks& hooks) {
         const double begin = now_();
         if (begin < next_) {
             return;
         }
-        const Film film = renderer.film();
+        const Film film = whole_film(renderer, hooks.base);
         progress.relmse = estimated_relmse(film);
-        progress.rays_per_second = static_cast<double>(film_totals(film).rays) / progress.seconds;
+        progress.rays_per_second = (static_cast<double>(film_totals(film).rays) - base_rays) / progress.seconds;
         if (hooks.film) {
             hooks.film(film);
         }
@@ -79,16 +81,16 @@ private:
 /// Looks at the film where the error may have met its target.
 class ErrorTarget {
 public:
-    explicit ErrorTarget(double relmse) : target_(relmse) {}
+    ErrorTarget(double relmse, std::uint64_t look_at) : target_(relmse), look_at_(look_at) {}
 
     /// At which sample count; beyond any where there is no target.
     std::uint64_t look_at() const { return target_ > 0 ? look_at_ : std::numeric_limits<std::uint64_t>::max(); }
 
-    bool met(const Renderer& renderer, std::uint32_t spp, Progress& progress) {
+    bool met(const Renderer& renderer, const Film* base, std::uint32_t spp, Progress& progress) {
         if (spp < look_at()) {
             return false;
         }
-        const std::optional<double> relmse = estimated_relmse(renderer.film());
+        const std::optional<double> relmse = estimated_relmse(whole_film(renderer, base));
         if (!relmse) {
             throw Error("the error has no estimate: no standard errors are kept");
         }
@@ -105,7 +107,7 @@ public:
 private:
     double target_;
     double needed_ = 0;
-    std::uint64_t look_at_ = least_judged_samples;
+    std::uint64_t look_at_;
 };
 
 }  // namespace
@@ -115,13 +117,17 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
     const std::function<double()> now = hooks.now ? hooks.now : now_seconds;
     const Film before = renderer.film();
     FilmWatch watch(now);
-    ErrorTarget error(target.relmse);
+    ErrorTarget error(target.relmse, target.look_at);
+    const std::uint32_t base_spp = hooks.base == nullptr ? 0 : samples_of_every_pixel(*hooks.base);
+    const double base_rays = hooks.base == nullptr ? 0 : static_cast<double>(film_totals(*hooks.base).rays);
     ProgressiveResult result;
     std::uint32_t batch = 0;
     double last_seconds = 0;
     Progress progress;
     while (!cancel) {
-        batch = next_batch(target, result.spp, result.seconds, batch, last_seconds, error.look_at());
+        // A base of more samples than the next look wants is looked at after one more.
+        const std::uint64_t look_at = std::max(error.look_at(), base_spp + result.spp + std::uint64_t{1}) - base_spp;
+        batch = next_batch(target, result.spp, result.seconds, batch, last_seconds, look_at);
         if (batch == 0) {
             return result;
         }
@@ -137,17 +143,18 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
             break;
         }
         result.spp += batch;
-        result.target_met = error.met(renderer, result.spp, progress);
+        result.target_met = error.met(renderer, hooks.base, base_spp + result.spp, progress);
+        result.look_at = error.look_at();
         if (hooks.progress) {
             const double sample_seconds = std::max(result.seconds / result.spp, 1e-12);
             const double until_spp = target.spp > 0 ? (target.spp - result.spp) * sample_seconds : HUGE_VAL;
             const double until_time = target.seconds > 0 ? std::max(0.0, target.seconds - result.seconds) : HUGE_VAL;
-            progress.spp = result.spp;
+            progress.spp = base_spp + result.spp;
             progress.seconds = result.seconds;
-            const double until_error = std::max(0.0, (error.needed() - result.spp) * sample_seconds);
+            const double until_error = std::max(0.0, (error.needed() - progress.spp) * sample_seconds);
             progress.eta_seconds = std::min({until_spp, until_time, until_error});
             progress.samples_per_second = static_cast<double>(before.pixels.size()) / sample_seconds;
-            watch.look(renderer, progress, hooks);
+            watch.look(renderer, base_rays, progress, hooks);
             hooks.progress(progress);
         }
         if (result.target_met) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/tonemap_image.h"
+#include "render/sample_ranges.h"
 #include "settings/settings.h"
 #include "scene/sun.h"
 #include "scene/viewpoint.h"
@@ -41,6 +42,8 @@ struct RenderRequest {
     bool validation = false;
     bool group_instances = true;  // vulkan; off to measure what it gains
     std::uint32_t spp = 64;       // 0 where `seconds` is the limit
+    std::optional<SampleRange> samples;  // a part of the picture: these alone, `spp` is how many
+    bool sums = false;                   // keep the film's sums in the file, so that it can be merged or resumed
     double seconds = 0;
     double target_error = 0;   // relMSE at which to stop, as the film's standard errors have it; 0 is none
     std::uint32_t frames = 0;  // of a sequence; 0 is one picture of the scene at rest

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "digest.h"
 #include "image/atomic_file.h"
 
 namespace diptych::core {
@@ -17,15 +18,6 @@ struct Header {
     std::uint64_t size = 0;
     std::uint64_t hash = 0;
 };
-
-// FNV-1a, 64 bits (Fowler, Noll, Vo).
-std::uint64_t hash_bytes(std::span<const unsigned char> bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325U;
-    for (const unsigned char byte : bytes) {
-        hash = (hash ^ byte) * 0x100000001b3U;
-    }
-    return hash;
-}
 
 std::string hex(std::span<const std::uint8_t> bytes) {
     std::string text;
@@ -64,7 +56,7 @@ std::vector<unsigned char> read_pipeline_cache(const std::filesystem::path& path
     }
     std::memcpy(&header, bytes.data(), sizeof(header));
     std::vector<unsigned char> payload(bytes.begin() + sizeof(header), bytes.end());
-    if (header.magic != expected.magic || header.size != payload.size() || header.hash != hash_bytes(payload)) {
+    if (header.magic != expected.magic || header.size != payload.size() || header.hash != digest_of(payload)) {
         return {};
     }
     return payload;
@@ -73,7 +65,7 @@ std::vector<unsigned char> read_pipeline_cache(const std::filesystem::path& path
 void write_pipeline_cache(const std::filesystem::path& path, std::span<const unsigned char> bytes) {
     Header header;
     header.size = bytes.size();
-    header.hash = hash_bytes(bytes);
+    header.hash = digest_of(bytes);
     std::vector<unsigned char> whole(sizeof(header) + bytes.size());
     std::memcpy(whole.data(), &header, sizeof(header));
     std::copy(bytes.begin(), bytes.end(), whole.begin() + sizeof(header));

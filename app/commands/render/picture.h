@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "commands/render/kept_work.h"
 #include "render/metadata.h"
 #include "render/request.h"
 #include "render/save_film.h"
@@ -25,10 +26,11 @@ struct PictureAudience {
     std::string label;         // before the progress line
     bool quiet = false;        // no line on stdout at the end
     LiveView* live = nullptr;  // sees the picture now and then, and at the end
+    const WorkFiles* files = nullptr;  // to go on from, and to leave; null: unfinished work goes to the output
 };
 
-/// Renders the session's picture until the request's samples or seconds are reached or `cancel` is set. Writes
-/// request.output and says so.
+/// Renders the session's picture until the request's samples or seconds are reached or `cancel` is set, from the samples
+/// that earlier runs have left. Writes request.output, or what is unfinished to a file beside it, and says so.
 /// Throws Error.
 Picture render_picture(Session& session, const RenderRequest& request, const std::atomic<bool>& cancel,
                        const PictureAudience& audience);

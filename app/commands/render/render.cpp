@@ -10,6 +10,7 @@
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
 #include "console/interrupt.h"
+#include "commands/render/kept_work.h"
 #include "commands/render/live_view.h"
 #include "session/open_session.h"
 #include "settings/names.h"
@@ -33,12 +34,17 @@ constexpr const char* render_examples = R"(Examples:
   diptych render scene.glb -o walk.####.exr --frames 96 --fps 24 --camera moving
   diptych render scene.glb -o around.png --frames 36 --orbit 10 --tonemap aces
   diptych render scene.glb -o film.####.exr --frames 96 --integrator restir --spp 1 --warm-up 24
+  diptych render scene.glb -o night.exr --spp 65536 --checkpoint night.part.exr --every 300
+  diptych render scene.glb -o part2.exr --samples 512:1024
 --frames plays the scene's animations from --start on and writes one file per frame. #### in the file name stands
 for the frame number; without it the number comes before the extension. Frame i has the seed --seed + i. With
 restir, all frames have the seed --seed, and each frame reuses the previous one. The metadata of each file hold a
 command that renders this frame alone.
 EXR holds linear colour, standard error, albedo, normal and depth. Its attribute diptych:command holds the command
-that repeats the render. PNG is tone mapped; HDR is linear. Ctrl-C saves the samples so far and exits with code 130.)";
+that repeats the render. PNG is tone mapped; HDR is linear. Ctrl-C saves the samples so far and exits with code 130.
+An interrupted render leaves picture.part.exr beside its output, and the same command goes on from it, to the same
+bits. --samples renders a part of the samples, anywhere; 'diptych merge' puts parts together. A sequence skips frames
+that are finished.)";
 
 struct RenderOptions {
     RenderArguments arguments;
@@ -49,11 +55,57 @@ struct RenderOptions {
     CLI::Option* start_option = nullptr;
     CLI::Option* orbit_option = nullptr;
     CLI::Option* warm_up_option = nullptr;
+    CLI::Option* samples_option = nullptr;
+    CLI::Option* first_frame_option = nullptr;
+    CLI::Option* checkpoint_option = nullptr;
+    CLI::Option* resume_option = nullptr;
+    CLI::Option* every_option = nullptr;
+    std::string samples;
+    WorkFiles files;
     bool layers = true;
     std::uint32_t sample_count = 0;
+    std::uint32_t first_frame = 0;
     std::string live;  // HOST:PORT
     bool json = false;
 };
+
+/// Parts of a picture and files to go on from have no sense where samples go on from one another.
+void check_parts(RenderOptions& options) {
+    RenderRequest& request = options.arguments.request;
+    if (options.samples_option->count() > 0) {
+        request.samples = parse_range(options.samples);
+        request.spp = static_cast<std::uint32_t>(request.samples->end - request.samples->first);
+        request.sums = true;
+    }
+    if (request.sums && image_format(request.output) != ImageFormat::Exr) {
+        throw Error(fmt::format("-o {}: cannot hold the sums of its samples; only .exr can", request.output));
+    }
+    if (options.every_option->count() > 0 && options.files.checkpoint.empty()) {
+        throw Error("--every: works only with --checkpoint");
+    }
+    for (CLI::Option* option : {options.samples_option, options.checkpoint_option, options.resume_option}) {
+        if (option->count() == 0) {
+            continue;
+        }
+        if (request.frames > 0) {
+            throw Error(fmt::format("{}: is for one picture; a sequence goes on where it was interrupted by itself, and "
+                                    "is split by --first-frame",
+                                    option->get_name()));
+        }
+        if (request.backend != "oracle" && chains_frames(request.settings)) {
+            throw Error(fmt::format("{}: restir with --temporal builds each sample on the one before, so its samples "
+                                    "cannot be split; give --no-temporal, or split a sequence by --first-frame with "
+                                    "--warm-up",
+                                    option->get_name()));
+        }
+        if (request.warm_up > 0) {
+            throw Error(fmt::format("{}: does not go with --warm-up", option->get_name()));
+        }
+    }
+    if (!options.files.checkpoint.empty() && image_format(options.files.checkpoint) != ImageFormat::Exr) {
+        throw Error(fmt::format("--checkpoint {}: is an .exr file", options.files.checkpoint));
+    }
+}
 
 void check_render_options(RenderOptions& options) {
     RenderRequest& request = options.arguments.request;
@@ -65,6 +117,9 @@ void check_render_options(RenderOptions& options) {
     if (options.warm_up_option->count() > 0 && !(request.backend != "oracle" && chains_frames(settings))) {
         throw Error("--warm-up: works only with --integrator restir and --temporal, which reuse the previous frame");
     }
+    if (options.samples_option->count() > 0 && (request.seconds > 0 || request.target_error > 0)) {
+        throw Error("--samples: says how many samples there are; --time and --target-error do too");
+    }
     if (request.seconds > 0 || (request.target_error > 0 && options.spp_option->count() == 0)) {
         request.spp = 0;
     }
@@ -72,6 +127,10 @@ void check_render_options(RenderOptions& options) {
         throw Error(fmt::format(
             "--target-error: {} resamples a frame as a whole, so the spread of its samples does not give the error",
             name_of(settings.integrator)));
+    }
+    check_parts(options);
+    if (request.samples && settings.sampler == SamplerKind::hammersley && options.sample_count == 0) {
+        throw Error("--samples: a part of a hammersley set needs the size of the whole set; give --sample-count");
     }
     settings.sample_count = options.sample_count > 0 ? options.sample_count : request.spp;
     if (settings.sampler == SamplerKind::hammersley && settings.sample_count == 0) {
@@ -90,7 +149,17 @@ void check_render_options(RenderOptions& options) {
         static_cast<double>(request.warm_up) + request.frames > 4294967295.0 / std::max(request.spp, 1U)) {
         throw Error("--frames: frames of restir that reuse each other have at most 4294967295 samples together");
     }
-    check_writable(frame_path(request.output, 0, request.frames));
+    if (options.first_frame_option->count() > 0 && options.first_frame + std::uint64_t{1} > request.frames) {
+        throw Error(fmt::format("--first-frame {}: the sequence has {} frames, from 0 on", options.first_frame,
+                                request.frames));
+    }
+    check_writable(frame_path(request.output, options.first_frame, request.frames));
+    if (!options.files.checkpoint.empty()) {
+        check_writable(options.files.checkpoint);
+    }
+    if (request.frames == 0) {
+        refuse_to_lose(request, options.files);
+    }
     const bool exr = image_format(request.output) == ImageFormat::Exr;
     if (!exr && options.layers && options.layers_option->count() > 0) {
         throw Error(fmt::format("--layers: {} cannot hold layers; only .exr can", request.output));
@@ -118,7 +187,7 @@ int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) 
         session.next_picture();
     }
     const Picture picture = render_picture(session, request, interrupt.requested(),
-                                           {.label = "", .quiet = options.json, .live = live});
+                                           {.label = "", .quiet = options.json, .live = live, .files = &options.files});
     if (options.json && picture.saved) {
         print_json(picture.json);
     }
@@ -131,7 +200,8 @@ int run_render(RenderOptions options) {
     const Scene scene = prepare_scene(options.arguments);
     if (options.arguments.request.frames > 0) {
         report_clips(scene, options.arguments.request);
-        return render_sequence(scene, options.arguments.request, options.json, live.get());
+        return render_sequence(scene, options.arguments.request, options.first_frame, options.files, options.json,
+                               live.get());
     }
     return run_still(options, scene, live.get());
 }
@@ -144,7 +214,7 @@ void add_render(CLI::App& app, Run& run) {
     RenderRequest& request = options->arguments.request;
     command->add_option("scene", request.scene, ".gltf or .glb file")->required();
     command->add_option("-o,--output", request.output, "Image to write: .exr, .png or .hdr")->required();
-    CLI::Option* spp = command->add_option("--spp", request.spp, "Samples per pixel")
+    CLI::Option* spp = command->add_option("--spp", request.spp, "Samples per pixel, those of a resumed file included")
                            ->check(CLI::Range(1U, 4294967295U))
                            ->capture_default_str();
     options->spp_option = spp;
@@ -163,12 +233,31 @@ void add_render(CLI::App& app, Run& run) {
             ->add_option("--sample-count", options->sample_count,
                          "Size of the hammersley set, samples per pixel; default: --spp")
             ->check(CLI::Range(1U, 4294967295U)));
+    options->samples_option =
+        command->add_option("--samples", options->samples,
+                            "FIRST:END: these samples alone, as a part for 'diptych merge'; 0:64 are the first 64");
+    options->samples_option->excludes(spp);
+    command->add_flag("--sums", request.sums,
+                      "Keep the sums of the samples in the .exr, so that it can be merged and resumed");
+    options->checkpoint_option = command->add_option(
+        "--checkpoint", options->files.checkpoint,
+        "Write the samples so far into this .exr as the picture grows, and go on from it if it is there");
+    options->every_option = command
+                                ->add_option("--every", options->files.every, "Seconds from one checkpoint to the next")
+                                ->check(positive_number())
+                                ->capture_default_str();
+    options->resume_option =
+        command->add_option("--resume", options->files.resume, "Go on from the samples of this .exr");
+    command->add_flag("--overwrite", options->files.overwrite,
+                      "Begin anew, and replace files that hold more samples, or finished frames");
     command->add_option("--seed", request.settings.seed, "Seed of the random numbers; another seed gives other noise")
         ->capture_default_str();
     options->sequence_option = command
                                    ->add_option("--frames", request.frames,
                                                 "Number of frames of a sequence; --spp or --time is per frame")
                                    ->check(CLI::Range(1U, 1000000U));
+    options->first_frame_option =
+        command->add_option("--first-frame", options->first_frame, "First frame of the sequence to render, from 0");
     options->fps_option =
         command->add_option("--fps", request.fps, "Frames per second")->check(positive_number())->capture_default_str();
     options->start_option =

@@ -2,9 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "commands/command.h"
 #include "commands/render/picture.h"
 #include "console/interrupt.h"
+#include "console/repeat_command.h"
+#include "error.h"
+#include "image/layered_image.h"
+#include "render/film_file.h"
+#include "render/metadata.h"
 #include "render/frames.h"
 #include "render/seeds.h"
 #include "session/open_session.h"
@@ -30,33 +38,97 @@ std::string frame_path(const std::string& output, std::uint32_t frame, std::uint
     return output.substr(0, end) + fmt::format(".{:04}", frame) + output.substr(end);
 }
 
-int render_sequence(const Scene& scene, const RenderRequest& request, bool json, LiveView* live) {
+namespace {
+
+/// One frame as a picture of its own, whose command renders it alone. `chain_start` is the frame, kept or not, with which
+/// frames that go on from one another begin.
+RenderRequest frame_request(const RenderRequest& request, std::uint32_t moment, bool chained, std::uint32_t chain_start) {
+    RenderRequest frame = request;
+    if (chained) {
+        frame.start = request.start + chain_start / request.fps;
+        frame.warm_up = moment - chain_start;
+    } else {
+        frame.start = request.start + moment / request.fps;
+        frame.settings.seed = neighbor_seed(request.settings.seed, moment);
+    }
+    frame.frame = moment - request.warm_up;
+    frame.output = frame_path(request.output, frame.frame, request.frames);
+    frame.frames = 1;
+    return frame;
+}
+
+/// Whether the frame's file is there, whole, with its samples. Throws Error where it is a frame of another picture.
+bool is_finished(const RenderRequest& frame) {
+    if (!std::filesystem::exists(frame.output)) {
+        return false;
+    }
+    if (image_format(frame.output) != ImageFormat::Exr) {
+        return true;
+    }
+    if (samples_in(frame.output) < frame.spp) {
+        return false;
+    }
+    std::map<std::string, std::string> found = read_metadata(frame.output);
+    RenderOutcome outcome;
+    outcome.maker = this_program();
+    std::map<std::string, std::string> wanted = render_metadata(frame, outcome);
+    for (const char* name : {"warm_up", "program"}) {  // what may differ between runs of one sequence
+        found.erase(name);
+        wanted.erase(name);
+    }
+    found.erase("fingerprint");
+    if (const std::string difference = picture_difference(found, wanted); !difference.empty()) {
+        throw Error(fmt::format("{}: is a frame of another picture: {}; give --overwrite, or another -o", frame.output,
+                                difference));
+    }
+    return true;
+}
+
+}  // namespace
+
+int render_sequence(const Scene& scene, const RenderRequest& request, std::uint32_t first_frame, const WorkFiles& files,
+                    bool json, LiveView* live) {
     const FrameMoments moments(scene, request);
     Session session = open_played(scene, request);
+    const bool chained = session.chained();
+    std::vector<bool> finished(request.frames);
+    for (std::uint32_t frame = first_frame; frame < request.frames; ++frame) {
+        finished[frame] =
+            !files.overwrite && is_finished(frame_request(request, request.warm_up + frame, chained, first_frame));
+    }
+    const auto unfinished = std::find(finished.begin() + first_frame, finished.end(), false);
+    const auto next = static_cast<std::uint32_t>(unfinished - finished.begin());
+    if (next > first_frame) {
+        report_warning(fmt::format("{}: {} finished frames are left alone; --overwrite renders them again", request.output,
+                                   std::count(finished.begin() + first_frame, finished.end(), true)));
+    }
+    // Warm-up frames stand for all that a chain looks back to. Without them it begins at its first frame again.
+    const std::uint32_t start = !chained || request.warm_up > 0 ? next : first_frame;
+    if (start < next && next < request.frames) {
+        report_warning(fmt::format("frames {} to {} are rendered again, because restir goes on from them; --warm-up "
+                                   "begins that many frames earlier instead",
+                                   start, next - 1));
+    }
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     InterruptGuard interrupt;
     bool interrupted = false;
-    for (std::uint32_t i = 0; i < request.warm_up + request.frames && !interrupted; ++i) {
-        RenderRequest frame = request;
-        if (session.chained()) {
-            frame.warm_up = i;
-        } else {
-            frame.start = request.start + i / request.fps;
-            frame.settings.seed = neighbor_seed(request.settings.seed, i);
+    for (std::uint32_t i = start; i < request.warm_up + request.frames && next < request.frames && !interrupted; ++i) {
+        const RenderRequest frame = frame_request(request, i, chained, start);
+        const bool discarded = i < start + request.warm_up;
+        const bool kept = !discarded && !finished[frame.frame];
+        if (!kept && !chained) {
+            continue;
         }
-        const bool goes_on = session.chained() && i > 0;
+        const bool goes_on = chained && i > start;
         session.show(moments.at(i), goes_on ? std::nullopt : std::optional(frame.settings.seed));
-        if (i < request.warm_up) {
+        if (!kept) {
             session.render(0, request.spp, interrupt.requested());
             interrupted = interrupt.requested();
             continue;
         }
-        frame.output = frame_path(request.output, i - request.warm_up, request.frames);
-        frame.frames = 1;
-        frame.frame = i - request.warm_up;
         const std::string label = fmt::format("frame {}/{}  ", frame.frame + 1, request.frames);
-        Picture picture =
-            render_picture(session, frame, interrupt.requested(), {.label = label, .quiet = json, .live = live});
+        Picture picture = render_picture(session, frame, interrupt.requested(),
+                                         {.label = label, .quiet = json, .live = live, .files = &files});
         if (picture.saved) {
             picture.json["pack_seconds"] = session.pack_seconds();
             picture.json["move_seconds"] = session.move_seconds();

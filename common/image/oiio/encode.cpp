@@ -3,6 +3,9 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <cstring>
+
 #include "image/oiio/fail.h"
 
 namespace diptych::core {
@@ -24,10 +27,22 @@ ImageLibrary::Bytes encode(const std::string& format, const OIIO::ImageSpec& spe
     return memory.buffer();
 }
 
+/// The floats' bits and the words, pixel by pixel.
+std::vector<std::uint32_t> interleaved(const Image& image, const WordChannels& words) {
+    const std::size_t floats = static_cast<std::size_t>(image.channels);
+    const std::size_t stride = floats + words.names.size();
+    std::vector<std::uint32_t> pixels(image.pixel_count() * stride);
+    for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+        std::memcpy(&pixels[i * stride], &image.data[i * floats], floats * sizeof(float));
+        std::copy_n(&words.data[i * words.names.size()], words.names.size(), &pixels[i * stride + floats]);
+    }
+    return pixels;
+}
+
 }  // namespace
 
 ImageLibrary::Bytes exr_bytes(const Image& image, const std::vector<std::string>& channel_names,
-                              const std::map<std::string, std::string>& attributes) {
+                              const std::map<std::string, std::string>& attributes, const WordChannels* words) {
     OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeFloat);
     spec.channelnames = channel_names;
     spec.attribute("compression", "zip");
@@ -35,7 +50,17 @@ ImageLibrary::Bytes exr_bytes(const Image& image, const std::vector<std::string>
     for (const auto& [name, value] : attributes) {
         spec.attribute(name, value);
     }
-    return encode("exr", spec, OIIO::TypeFloat, image.data.data());
+    if (words == nullptr) {
+        return encode("exr", spec, OIIO::TypeFloat, image.data.data());
+    }
+    spec.channelformats.assign(channel_names.size(), OIIO::TypeFloat);
+    for (const std::string& name : words->names) {
+        spec.channelnames.push_back(word_prefix + name);
+        spec.channelformats.push_back(OIIO::TypeUInt32);
+    }
+    spec.nchannels = static_cast<int>(spec.channelnames.size());
+    spec.attribute("compression", "rle");  // most bytes of the words are 0; zip takes ten times as long
+    return encode("exr", spec, OIIO::TypeUnknown, interleaved(image, *words).data());
 }
 
 ImageLibrary::Bytes hdr_bytes(const Image& image) {

@@ -7,7 +7,7 @@
 namespace diptych::core {
 
 ImageLibrary::Bytes exr_bytes(const Image& image, const std::vector<std::string>& channel_names,
-                              const std::map<std::string, std::string>& attributes);
+                              const std::map<std::string, std::string>& attributes, const WordChannels* words);
 ImageLibrary::Bytes hdr_bytes(const Image& image);
 ImageLibrary::Bytes png_bytes(const ByteImage& image, bool srgb);
 

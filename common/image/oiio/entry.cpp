@@ -21,8 +21,8 @@ public:
         return formats.find("," + format + ",") != std::string::npos;
     }
     Bytes encode_exr(const Image& image, const std::vector<std::string>& channel_names,
-                     const std::map<std::string, std::string>& attributes) const override {
-        return exr_bytes(image, channel_names, attributes);
+                     const std::map<std::string, std::string>& attributes, const WordChannels* words) const override {
+        return exr_bytes(image, channel_names, attributes, words);
     }
     Bytes encode_hdr(const Image& image) const override { return hdr_bytes(image); }
     Bytes encode_png(const ByteImage& image, bool srgb) const override { return png_bytes(image, srgb); }

@@ -61,6 +61,9 @@ public:
     void read(size_t part, int begin, int end, std::span<std::uint8_t> values) override {
         read(part, begin, end, OIIO::TypeUInt8, values.data());
     }
+    void read(size_t part, int begin, int end, std::span<std::uint32_t> words) override {
+        read(part, begin, end, OIIO::TypeUInt32, words.data());
+    }
 
 private:
     void read(size_t part, int begin, int end, OIIO::TypeDesc type, void* values) {

@@ -1,0 +1,22 @@
+// Channels of an EXR file that hold words of 32 bits beside the picture.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace diptych::core {
+
+/// What the names of such channels begin with. It comes last among the layers that write_exr knows, so that readers of a
+/// picture, who read a range of channels, need not read the words.
+inline constexpr const char* word_prefix = "sums.";
+
+/// One uint channel for each name; `data` is row-major from the top, channels interleaved.
+struct WordChannels {
+    int width = 0;
+    int height = 0;
+    std::vector<std::string> names;  // without word_prefix
+    std::vector<std::uint32_t> data;
+};
+
+}  // namespace diptych::core

@@ -1,0 +1,75 @@
+#include "render/film_file.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "error.h"
+#include "image/image_file.h"
+#include "image/layered_image.h"
+#include "render/film_words.h"
+
+namespace diptych::core {
+
+namespace {
+
+using Metadata = std::map<std::string, std::string>;
+
+std::string entry(const Metadata& metadata, const std::string& name) {
+    const auto found = metadata.find(name);
+    return found == metadata.end() ? "" : found->second;
+}
+
+/// Entries that say how a film came to be, or how it is shown. A scene is known by its fingerprint, not by its place.
+const std::set<std::string>& idle_entries() {
+    static const std::set<std::string> names = {"command", "scene",   "env",      "device",   "backend",     "spp",
+                                                "samples", "seconds", "rays",     "nonfinite", "interrupted", "uneven", "look_at",
+                                                "exposure", "tonemap", "generic", "fingerprint"};
+    return names;
+}
+
+}  // namespace
+
+std::optional<FilmFile> read_film(const std::filesystem::path& path) {
+    const std::optional<WordChannels> words = read_words(path);
+    if (!words) {
+        return std::nullopt;
+    }
+    FilmFile file;
+    file.metadata = read_metadata(path);
+    try {
+        file.samples = SampleRanges::parse(entry(file.metadata, "samples"));
+        file.film = film_of_words(*words, entry(file.metadata, "standard_error") == "yes",
+                                  entry(file.metadata, "first_hit_layers") == "yes");
+    } catch (const std::runtime_error& error) {
+        throw Error(path.string() + ": cannot read its film: " + error.what());
+    }
+    return file;
+}
+
+std::string picture_difference(const Metadata& a, const Metadata& b) {
+    std::set<std::string> names;
+    for (const Metadata* metadata : {&a, &b}) {
+        for (const auto& [name, value] : *metadata) {
+            names.insert(name);
+        }
+    }
+    for (const std::string& name : names) {
+        // A number of samples that only the Hammersley set depends on.
+        const bool idle = idle_entries().count(name) > 0 ||
+                          (name == "sample_count" && entry(a, "sampler") != "hammersley");
+        const std::string value_a = entry(a, name);
+        const std::string value_b = entry(b, name);
+        if (!idle && value_a != value_b) {
+            const auto shown = [](const std::string& value) { return value.empty() ? "not set" : value; };
+            return fmt::format("{} is {} and {}", name, shown(value_a), shown(value_b));
+        }
+    }
+    if (entry(a, "fingerprint") != entry(b, "fingerprint")) {
+        return "the scene's content, its camera or its sky differs";
+    }
+    return "";
+}
+
+}  // namespace diptych::core

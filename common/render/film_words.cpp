@@ -1,0 +1,151 @@
+#include "render/film_words.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <stdexcept>
+
+namespace diptych::core {
+
+namespace {
+
+/// Names of the words of a sum (numbers/exact_sum.h) in the order of its struct.
+std::vector<std::string> exact_sum_words(const std::string& name) {
+    std::vector<std::string> names;
+    for (const char* half : {"low", "high"}) {
+        for (const char* bin : {"0", "1", "2"}) {
+            for (const char* channel : {"r", "g", "b"}) {
+                names.push_back(name + "." + half + bin + channel);
+            }
+        }
+    }
+    names.push_back(name + ".base");
+    return names;
+}
+
+std::vector<std::string> fixed_sum_words(const std::string& name) {
+    return {name + ".low_x", name + ".low_y", name + ".low_z", name + ".high_x", name + ".high_y", name + ".high_z"};
+}
+
+void append(std::vector<std::string>& names, const std::vector<std::string>& more) {
+    names.insert(names.end(), more.begin(), more.end());
+}
+
+const std::vector<std::string>& pixel_words() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all = exact_sum_words("radiance");
+        append(all, {"samples", "nonfinite", "rays", "ray_wraps"});
+        return all;
+    }();
+    return names;
+}
+
+const std::vector<std::string>& moment_words() {
+    static const std::vector<std::string> names = exact_sum_words("squares");
+    return names;
+}
+
+const std::vector<std::string>& first_hit_words() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all = fixed_sum_words("albedo");
+        append(all, fixed_sum_words("normal"));
+        append(all, {"depth.low0", "depth.low1", "depth.high0", "depth.high1", "depth.base"});
+        return all;
+    }();
+    return names;
+}
+
+/// An array of structs of words, and the names of the words of one. Word is constant where the film is.
+template <class Word>
+struct Words {
+    std::span<Word> words;
+    const std::vector<std::string>* names;
+
+    std::size_t stride() const { return names->size(); }
+};
+
+template <class Word, class Structs>
+Words<Word> words_of(Structs& structs, const std::vector<std::string>& names) {
+    static_assert(sizeof(structs[0]) % sizeof(Word) == 0);
+    return {{reinterpret_cast<Word*>(structs.data()), structs.size() * sizeof(structs[0]) / sizeof(Word)}, &names};
+}
+
+template <class Word, class AnyFilm>
+std::array<Words<Word>, 3> all_words(AnyFilm& film) {
+    static_assert(sizeof(shared::FilmPixel) == 4 * 23 && sizeof(shared::FilmMoments) == 4 * 19 &&
+                  sizeof(shared::FilmFirstHit) == 4 * 17);
+    return {words_of<Word>(film.pixels, pixel_words()), words_of<Word>(film.moments, moment_words()),
+            words_of<Word>(film.first_hits, first_hit_words())};
+}
+
+/// For each word of a struct, whether any pixel has a bit of it set.
+std::vector<bool> used_words(const Words<const std::uint32_t>& words) {
+    std::vector<std::uint32_t> bits(words.stride());
+    for (std::size_t i = 0; i < words.words.size(); i += words.stride()) {
+        for (std::size_t k = 0; k < words.stride(); ++k) {
+            bits[k] |= words.words[i + k];
+        }
+    }
+    std::vector<bool> used(words.stride());
+    std::transform(bits.begin(), bits.end(), used.begin(), [](std::uint32_t any) { return any != 0; });
+    return used;
+}
+
+/// Where a channel's words lie in the film.
+struct Place {
+    const std::uint32_t* first;
+    std::size_t stride;
+};
+
+}  // namespace
+
+WordChannels film_words(const Film& film) {
+    WordChannels channels;
+    channels.width = film.width;
+    channels.height = film.height;
+    std::vector<Place> places;
+    for (const auto& words : all_words<const std::uint32_t>(film)) {
+        const std::vector<bool> used = used_words(words);
+        for (std::size_t k = 0; k < used.size(); ++k) {
+            if (used[k]) {
+                channels.names.push_back((*words.names)[k]);
+                places.push_back({words.words.data() + k, used.size()});
+            }
+        }
+    }
+    channels.data.reserve(film.pixels.size() * places.size());
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        for (const Place& place : places) {
+            channels.data.push_back(place.first[i * place.stride]);
+        }
+    }
+    return channels;
+}
+
+Film film_of_words(const WordChannels& words, bool moments, bool first_hits) {
+    Film film;
+    film.width = words.width;
+    film.height = words.height;
+    const std::size_t count = static_cast<std::size_t>(words.width) * static_cast<std::size_t>(words.height);
+    film.pixels.resize(count);
+    film.moments.resize(moments ? count : 0);
+    film.first_hits.resize(first_hits ? count : 0);
+    const auto targets = all_words<std::uint32_t>(film);
+    for (std::size_t channel = 0; channel < words.names.size(); ++channel) {
+        const std::string& name = words.names[channel];
+        const auto known = std::find_if(targets.begin(), targets.end(), [&](const auto& target) {
+            return !target.words.empty() && std::count(target.names->begin(), target.names->end(), name) > 0;
+        });
+        if (known == targets.end()) {
+            throw std::runtime_error("its film has an unknown channel '" + name + "'");
+        }
+        const auto at = std::find(known->names->begin(), known->names->end(), name) - known->names->begin();
+        for (std::size_t i = 0; i < count; ++i) {
+            known->words[i * known->stride() + static_cast<std::size_t>(at)] =
+                words.data[i * words.names.size() + channel];
+        }
+    }
+    return film;
+}
+
+}  // namespace diptych::core
