@@ -105,7 +105,8 @@ TEST_CASE("an interrupt leaves the finished frames and saves the one it met", "[
     CHECK(begun);
     CHECK(result.exit_code == 130);
     CHECK(read_image(folder.file("long.0000.exr")).metadata.at("interrupted") == "no");
-    CHECK(read_image(folder.file("long.0001.exr")).metadata.at("frame") == "1");
+    CHECK_FALSE(std::filesystem::exists(folder.file("long.0001.exr")));
+    CHECK(read_image(folder.file("long.0001.part.exr")).metadata.at("frame") == "1");
 }
 
 TEST_CASE("options of sequences that make no sense are refused", "[app]") {

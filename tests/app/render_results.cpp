@@ -239,7 +239,10 @@ TEST_CASE("an interrupt saves the work so far and ends with 130", "[app]") {
     const auto json = nlohmann::json::parse(result.out);
     CHECK(json.at("interrupted") == true);
     CHECK(json.at("spp").get<int>() > 0);
-    const LayeredImage image = read_image(out);
+    CHECK_FALSE(std::filesystem::exists(out));
+    const std::string part = folder.file("out.part.exr");
+    CHECK(json.at("output") == part);
+    const LayeredImage image = read_image(part);
     CHECK(image.metadata.at("interrupted") == "yes");
     CHECK(image.metadata.at("spp") == std::to_string(json.at("spp").get<int>()));
     CHECK(image.metadata.at("command").find("--spp " + image.metadata.at("spp") + " ") != std::string::npos);

@@ -87,7 +87,7 @@ TEST_CASE("A sequence of restir is one chain, and each of its frames repeats alo
         for (const std::uint32_t spp : {1U, 3U}) {
             INFO(backend << ", " << spp << " spp");
             std::vector<std::string> words = sequence(scene, folder.file("walk.exr"), backend);
-            append(words, {"--spp", std::to_string(spp), "--frames", "4"});
+            append(words, {"--spp", std::to_string(spp), "--frames", "4", "--overwrite"});
             const ProcessResult result = run_diptych(folder, words);
             INFO(result.err);
             REQUIRE(result.exit_code == 0);
@@ -118,7 +118,8 @@ TEST_CASE("A chain that has warmed up is nearer to the truth than one that begin
     REQUIRE(run_diptych(folder, {"generate", "many-lights", "--count", "2000", "-o", scene}).exit_code == 0);
     const auto picture_of = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = {"render", scene,   "-o",          folder.file("a.exr"),
-                                          "--size", "64x48", "--max-depth", "1"};
+                                          "--size", "64x48", "--max-depth", "1",
+                                          "--overwrite"};
         append(words, more);
         const ProcessResult result = run_diptych(folder, words);
         INFO(result.err);

@@ -41,7 +41,7 @@ TEST_CASE("each signal of a scheduler saves the work so far and ends with 128 + 
         INFO(result.err);
         CHECK(result.exit_code == 128 + run.signal);
         CHECK(nlohmann::json::parse(result.out).at("interrupted") == true);
-        CHECK(read_image(run.out).metadata.at("interrupted") == "yes");
+        CHECK(read_image(folder.file(std::to_string(run.signal) + ".part.exr")).metadata.at("interrupted") == "yes");
     }
     CHECK(deaf.finish().exit_code == 0);
     CHECK(read_image(folder.file("nohup.exr")).metadata.at("interrupted") == "no");

@@ -31,7 +31,7 @@ nlohmann::json verify_walk(const TemporaryFolder& folder, const std::string& sce
 void render_walk(const TemporaryFolder& folder, const std::string& scene, const std::string& output,
                  const std::vector<std::string>& more) {
     const ProcessResult result =
-        run_diptych(folder, with(with({"render", scene, "-o", folder.file(output)}, walk), more));
+        run_diptych(folder, with(with({"render", scene, "-o", folder.file(output), "--overwrite"}, walk), more));
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
 }

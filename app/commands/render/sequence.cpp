@@ -72,7 +72,7 @@ bool is_finished(const RenderRequest& frame) {
     RenderOutcome outcome;
     outcome.maker = this_program();
     std::map<std::string, std::string> wanted = render_metadata(frame, outcome);
-    for (const char* name : {"warm_up", "program"}) {  // what may differ between runs of one sequence
+    for (const char* name : {"warm_up", "program", "frame"}) {  // what may differ between runs of one sequence
         found.erase(name);
         wanted.erase(name);
     }
