@@ -3,12 +3,14 @@
 
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
 
 #include "session/make_renderer.h"
 #include "commands/command.h"
 #include "error.h"
 #include "commands/program.h"
+#include "console/output.h"
 #include "console/report.h"
 #include "commands/suggestion.h"
 
@@ -22,7 +24,8 @@ constexpr const char* program_examples = R"(Examples:
   diptych render cornell.gltf -o vulkan.exr --backend vulkan --seed 2
   diptych compare cpu.exr vulkan.exr -o difference.png
   diptych COMMAND --help
-Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 no suitable device, 130 interrupted)";
+Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 no suitable device, 128 + n ended
+by signal n, such as 130 by Ctrl-C)";
 
 int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
     std::string message = one_line(error.what());
@@ -55,16 +58,17 @@ int run_command(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {
-        return app.exit(success);
+        std::ostringstream help;
+        const int code = app.exit(success, help, help);
+        write_result(help.str());
+        return code;
     } catch (const CLI::ParseError& error) {
         return usage_error(app, error, argc, argv);
     }
     return exit_code_after_validation(run());
 }
 
-}  // namespace
-
-int run_program(int argc, char** argv) {
+int run_and_report_errors(int argc, char** argv) {
     try {
         return run_command(argc, argv);
     } catch (const NoDevice& error) {
@@ -80,6 +84,18 @@ int run_program(int argc, char** argv) {
         report_error(fmt::format("internal error: {}", error.what()));
         return exit_bad_input;
     }
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+    const int code = run_and_report_errors(argc, argv);
+    const std::string reason = reason_of_loss();
+    if (reason.empty()) {
+        return code;
+    }
+    report_error("stdout: the results cannot be written: " + reason);
+    return code == exit_done || code == exit_check_failed ? exit_bad_input : code;
 }
 
 }  // namespace diptych::core::app

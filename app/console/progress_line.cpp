@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "console/output.h"
 #include "console/report.h"
 
 namespace diptych::core::app {
@@ -44,9 +44,9 @@ ProgressLine::~ProgressLine() {
         return;
     }
     if (terminal_) {
-        fmt::print(stderr, "\r{}\x1b[K\n", text(latest_));
+        print_message("\r{}\x1b[K\n", text(latest_));
     } else if (latest_.spp != shown_.spp) {
-        fmt::print(stderr, "{}\n", text(latest_));
+        print_message("{}\n", text(latest_));
     }
 }
 
@@ -57,8 +57,7 @@ void ProgressLine::show(const Progress& progress) {
     }
     shown_ = progress;
     next_ = terminal_ ? progress.seconds + terminal_interval : 2 * progress.seconds;
-    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", text(progress), terminal_ ? "\x1b[K" : "\n");
-    std::fflush(stderr);
+    print_message("{}{}{}", terminal_ ? "\r" : "", text(progress), terminal_ ? "\x1b[K" : "\n");
 }
 
 }  // namespace diptych::core::app

@@ -8,14 +8,14 @@
 
 #include "build_info.h"
 #include "console/option_names.h"
+#include "console/output.h"
 
 namespace diptych::core::app {
 
 namespace {
 
 void print_error_line(const std::string& line) {
-    fmt::print(stderr, "diptych: {}\n", one_line(with_option_names(line)));
-    std::fflush(stderr);
+    print_message("diptych: {}\n", one_line(with_option_names(line)));
 }
 
 std::string scaled(double value, double thousand, const std::vector<const char*>& units) {
@@ -64,8 +64,7 @@ void report_warnings(const Warnings& warnings) {
 }
 
 void print_json(const nlohmann::ordered_json& json) {
-    fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-    std::fflush(stdout);
+    write_data(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 std::string with_prefix(double value) {

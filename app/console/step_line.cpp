@@ -1,11 +1,10 @@
 #include "console/step_line.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 
+#include "console/output.h"
 #include "console/progress_line.h"
 
 namespace diptych::core::app {
@@ -15,8 +14,7 @@ StepLine::StepLine(int steps)
 
 StepLine::~StepLine() {
     if (terminal_ && begun_ > 0) {
-        fmt::print(stderr, "\r\x1b[K");
-        std::fflush(stderr);
+        print_message("\r\x1b[K");
     }
 }
 
@@ -28,9 +26,8 @@ void StepLine::begin(const std::string& what) {
     }
     next_ = terminal_ ? seconds + terminal_interval : 2 * seconds;
     const std::string left = done > 0 ? "  ETA " + clock_text(seconds / done * (steps_ - done)) : "";
-    fmt::print(stderr, "{}{}/{} steps  {}{}{}", terminal_ ? "\r" : "", begun_, std::max(steps_, begun_), what, left,
-               terminal_ ? "\x1b[K" : "\n");
-    std::fflush(stderr);
+    print_message("{}{}/{} steps  {}{}{}", terminal_ ? "\r" : "", begun_, std::max(steps_, begun_), what, left,
+                  terminal_ ? "\x1b[K" : "\n");
 }
 
 }  // namespace diptych::core::app

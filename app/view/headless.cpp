@@ -8,6 +8,7 @@
 
 #include "clock.h"
 #include "session/make_renderer.h"
+#include "console/output.h"
 #include "console/exit_codes.h"
 #include "error.h"
 #include "image/image_file.h"
@@ -216,9 +217,9 @@ int run_headless(const HeadlessOptions& options, LoadedScene scene) {
         print_json(json);
     } else {
         for (const nlohmann::ordered_json& panel : json["panels"]) {
-            fmt::print("{}: {}\n", panel["backend"].get<std::string>(), panel["device"].get<std::string>());
+            print_result("{}: {}\n", panel["backend"].get<std::string>(), panel["device"].get<std::string>());
         }
-        fmt::print("{}\n{}\n", line_of("moving", moving), line_of("resting", resting));
+        print_result("{}\n{}\n", line_of("moving", moving), line_of("resting", resting));
     }
     return interrupt.requested() ? interrupt_exit_code() : exit_done;
 }

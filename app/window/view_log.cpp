@@ -34,7 +34,8 @@ void ViewLog::write(const char* event, nlohmann::ordered_json details) {
     }
     nlohmann::ordered_json line = {{"event", event}, {"seconds", std::max(now_ - std::max(begin_, 0.0), 0.0)}};
     line.update(details);
-    fmt::print(file_.get(), "{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    const std::string text = line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    std::fputs(text.c_str(), file_.get());  // an event that cannot be written is dropped
     std::fflush(file_.get());
 }
 

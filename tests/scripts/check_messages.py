@@ -4,8 +4,9 @@
 Callers of the library may have no command line. So no string literal and no comment outside of app/ may name an option
 ("--fov", "-o"). A message names the setting, between backticks ("`fov`"), and app/console/option_names.cpp has the
 option of each.
+Within app/, only app/console/output.cpp writes to stdout and stderr: it knows what to do where they cannot be written.
 Fails where a literal names an option, where a setting has no option in the table, and where the table has a setting
-that no literal names or an option that the program lacks.
+that no literal names or an option that the program lacks; also where another source prints by itself.
 """
 import pathlib
 import re
@@ -14,6 +15,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY = ["shared_glsl_cpp", "common", "cpu_ref", "vk_backend"]
 TABLE = ROOT / "app/console/option_names.cpp"
+OUTPUT = ROOT / "app/console/output.cpp"
+PRINTING = re.compile(r"\bfmt::print\(|\bstd::(?:cout|cerr|clog|puts|printf)\b|\bf?printf\(|STDOUT_FILENO, \w+\.data")
 # Comments and character literals come first, so that a quote within them opens no string.
 TOKENS = re.compile(r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])+'|R"(\w*)\((.*?)\)\1"|"((?:\\.|[^"\\\n])*)\"""", re.DOTALL)
 OPTION = re.compile(r"(?<![\w-])--(?:[a-z]|$)|(?:^|(?<=[\s(]))-[a-zA-Z](?=[\s,.;:)]|$)")
@@ -59,6 +62,10 @@ def main():
     words = {word for text in options for word in re.findall(r"(?<![\w-])--?[a-z][a-z-]*", text)}
     ranges = (ROOT / "common/settings/ranges.h").read_text()
     words |= {"--" + name for name in re.findall(r'SettingRange \w+\{\s*"([\w-]+)"', ranges)}
+    for path in sources(["app"]):
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            if path != OUTPUT and PRINTING.search(line):
+                wrong.append(f"{path.relative_to(ROOT)}:{number}: prints by itself; {OUTPUT.name} does that")
     for setting, option in table.items():
         if setting not in named:
             wrong.append(f"{TABLE.name}: no message names `{setting}`")

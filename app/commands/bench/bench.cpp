@@ -6,6 +6,7 @@
 
 #include "commands/arguments/arguments.h"
 #include "commands/command.h"
+#include "console/output.h"
 #include "console/interrupt.h"
 #include "console/report.h"
 #include "console/step_line.h"
@@ -45,17 +46,17 @@ BenchSettings settings_of(const BenchOptions& options) {
 }
 
 void print_bench(const BenchResult& result, const RenderSettings& settings) {
-    fmt::print("{} at {}x{}, {}\n", result.backend, settings.width, settings.height, result.device);
-    fmt::print("{:<10} {:>10} {:>12} {:>10} {:>12} {:>10} {:>10}\n", "integrator", "ms/frame", "Msamples/s", "Mray/s",
-               "bare Mray/s", "of bare", "of brdf");
+    print_result("{} at {}x{}, {}\n", result.backend, settings.width, settings.height, result.device);
+    print_result("{:<10} {:>10} {:>12} {:>10} {:>12} {:>10} {:>10}\n", "integrator", "ms/frame", "Msamples/s", "Mray/s",
+                 "bare Mray/s", "of bare", "of brdf");
     for (const IntegratorBench& bench : result.integrators) {
-        fmt::print("{:<10} {:>10.3f} {:>12.3f} {:>10.2f} {:>12} {:>10} {:>10}\n", name_of(bench.integrator),
-                   bench.milliseconds, bench.samples_per_second / 1e6, bench.rays_per_second / 1e6,
-                   bench.bare ? fmt::format("{:.2f}", bench.bare->rays_per_second / 1e6) : "-",
-                   bench.bare ? fmt::format("{:.1f}%", 100 * bench.bare->share) : "-",
-                   bench.cost_relative_to_brdf ? fmt::format("{:.2f}x", *bench.cost_relative_to_brdf) : "-");
+        print_result("{:<10} {:>10.3f} {:>12.3f} {:>10.2f} {:>12} {:>10} {:>10}\n", name_of(bench.integrator),
+                     bench.milliseconds, bench.samples_per_second / 1e6, bench.rays_per_second / 1e6,
+                     bench.bare ? fmt::format("{:.2f}", bench.bare->rays_per_second / 1e6) : "-",
+                     bench.bare ? fmt::format("{:.1f}%", 100 * bench.bare->share) : "-",
+                     bench.cost_relative_to_brdf ? fmt::format("{:.2f}x", *bench.cost_relative_to_brdf) : "-");
         for (const PassTime& pass : bench.passes) {
-            fmt::print("  {:<18} {:>10.3f}\n", pass.pass, 1000 * pass.seconds);
+            print_result("  {:<18} {:>10.3f}\n", pass.pass, 1000 * pass.seconds);
         }
     }
 }

@@ -15,6 +15,7 @@
 #include "image/metrics.h"
 #include "image/picture_name.h"
 #include "image/tonemap_image.h"
+#include "console/output.h"
 #include "console/report.h"
 
 namespace diptych::core::app {
@@ -106,8 +107,8 @@ nlohmann::ordered_json to_json(const Difference& difference, const Verdict& verd
 void print_numbers(const Difference& difference) {
     const auto& ratio = difference.mean_ratio;
     const auto& z = difference.z_mean;
-    fmt::print("MSE {:.4g}  relMSE {:.4g}  mean ratio {:.6f} {:.6f} {:.6f}  z {:.2f} {:.2f} {:.2f}\n", difference.mse,
-               difference.relmse, ratio[0], ratio[1], ratio[2], z[0], z[1], z[2]);
+    print_result("MSE {:.4g}  relMSE {:.4g}  mean ratio {:.6f} {:.6f} {:.6f}  z {:.2f} {:.2f} {:.2f}\n", difference.mse,
+                 difference.relmse, ratio[0], ratio[1], ratio[2], z[0], z[1], z[2]);
 }
 
 LayeredImage read_named(const std::string& text) {
@@ -237,10 +238,10 @@ int run_compare(const CompareOptions& options) {
         print_json(json);
     } else {
         print_numbers(difference);
-        fmt::print("{}\n", verdict.text);
+        print_result("{}\n", verdict.text);
         if (!options.output.empty()) {
-            fmt::print("{}: A, B and their relative difference from 0 (black) to {:.3g} (yellow)\n", options.output,
-                       hot);
+            print_result("{}: A, B and their relative difference from 0 (black) to {:.3g} (yellow)\n", options.output,
+                         hot);
         }
     }
     if (!why_failed.empty()) {

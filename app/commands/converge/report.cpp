@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "build_info.h"
+#include "console/output.h"
 #include "console/repeat_command.h"
 #include "settings/names.h"
 #include "console/report.h"
@@ -155,24 +156,24 @@ std::string summary_to_csv(const ConvergeSummary& summary) {
 
 void print_summary(const ConvergeOptions& options, const ConvergeSummary& summary, const ReferencePicture& reference) {
     const RenderSettings& settings = options.arguments.request.settings;
-    fmt::print("{} at {}x{}, {} runs per method; reference: {}{}\n", options.arguments.request.scene, settings.width,
-               settings.height, options.runs, reference.method,
-               reference.spp > 0 ? fmt::format(", {} spp", reference.spp) : "");
-    fmt::print("{:<26} {:>8} {:>9} {:>10} {:>7} {:>15} {:>13}  bias\n", "method", "spp", "time", "relMSE", "slope",
-               "95 %", fmt::format("to {:.2g}", summary.target_relmse));
+    print_result("{} at {}x{}, {} runs per method; reference: {}{}\n", options.arguments.request.scene, settings.width,
+                 settings.height, options.runs, reference.method,
+                 reference.spp > 0 ? fmt::format(", {} spp", reference.spp) : "");
+    print_result("{:<26} {:>8} {:>9} {:>10} {:>7} {:>15} {:>13}  bias\n", "method", "spp", "time", "relMSE", "slope",
+                 "95 %", fmt::format("to {:.2g}", summary.target_relmse));
     for (const MethodSummary& method : summary.methods) {
         const CheckpointSummary& last = method.checkpoints.back();
         const char* mark = method.to_target.kind == TargetTime::Kind::earlier ? "<"
                            : method.to_target.kind == TargetTime::Kind::later ? ">"
                                                                               : "";
-        fmt::print("{:<26} {:>8} {:>9} {:>10.3g} {:>7.3f} {:>15} {:>13}  {}{}\n", method.method->name, last.spp,
-                   time_text(last.device_seconds), last.relmse_net, method.slope_mse.value,
-                   fmt::format("[{:.3f}, {:.3f}]", method.slope_mse.low, method.slope_mse.high),
-                   mark + time_text(method.to_target.seconds), method.bias_text,
-                   last.nonfinite > 0 ? fmt::format("; {} samples were not finite", last.nonfinite) : "");
+        print_result("{:<26} {:>8} {:>9} {:>10.3g} {:>7.3f} {:>15} {:>13}  {}{}\n", method.method->name, last.spp,
+                     time_text(last.device_seconds), last.relmse_net, method.slope_mse.value,
+                     fmt::format("[{:.3f}, {:.3f}]", method.slope_mse.low, method.slope_mse.high),
+                     mark + time_text(method.to_target.seconds), method.bias_text,
+                     last.nonfinite > 0 ? fmt::format("; {} samples were not finite", last.nonfinite) : "");
     }
-    fmt::print("\"slope\" is that of log MSE over log samples; independent samples give -1. Page: {}/index.html\n",
-               options.folder);
+    print_result("\"slope\" is that of log MSE over log samples; independent samples give -1. Page: {}/index.html\n",
+                 options.folder);
 }
 
 }  // namespace diptych::core::app

@@ -9,6 +9,7 @@
 #include "error.h"
 #include "image/atomic_file.h"
 #include "random_scene/scene_files.h"
+#include "console/output.h"
 #include "console/option_names.h"
 #include "console/report.h"
 #include "generate/generate.h"
@@ -48,7 +49,7 @@ int list_scenes(bool json) {
         if (json) {
             names.push_back({{"name", generator.name}, {"description", description}});
         } else {
-            fmt::print("{:<20} {}\n", generator.name, description);
+            print_result("{:<20} {}\n", generator.name, description);
         }
     }
     if (json) {
@@ -102,7 +103,7 @@ int run_generate(const GenerateArguments& options) {
     if (options.json) {
         print_json({{"name", options.name}, {"output", options.output}, {"recommended_arguments", arguments}});
     } else {
-        fmt::print("{}: written; to render it: diptych render {}{}{} -o picture.png\n", options.output, options.output,
+        print_note("{}: written; to render it: diptych render {}{}{} -o picture.png\n", options.output, options.output,
                    arguments.empty() ? "" : " ", arguments);
     }
     return exit_done;

@@ -12,6 +12,7 @@
 
 #include "commands/command.h"
 #include "error.h"
+#include "console/output.h"
 #include "console/report.h"
 #if DIPTYCH_VULKAN
 #include <vulkan/vulkan_core.h>
@@ -78,17 +79,17 @@ int print_devices(bool json) {
         print_json(all);
         return exit_done;
     }
-    fmt::print("cpu     {} threads, Embree {}\n", threads, RTC_VERSION_STRING);
+    print_result("cpu     {} threads, Embree {}\n", threads, RTC_VERSION_STRING);
     for (const auto& device : devices) {
-        fmt::print("vulkan  {} {} ({}, {}, Vulkan {}, {}): ", device["index"].get<int>(),
-                   device["name"].get<std::string>(), device["type"].get<std::string>(),
-                   device["driver"].get<std::string>(), device["api_version"].get<std::string>(),
-                   byte_text(device["memory"].get<double>()));
+        print_result("vulkan  {} {} ({}, {}, Vulkan {}, {}): ", device["index"].get<int>(),
+                     device["name"].get<std::string>(), device["type"].get<std::string>(),
+                     device["driver"].get<std::string>(), device["api_version"].get<std::string>(),
+                     byte_text(device["memory"].get<double>()));
         const auto lacks = device["lacks"].get<std::vector<std::string>>();
-        fmt::print("{}\n", device["usable"].get<bool>() ? "usable" : "lacks " + joined(lacks));
+        print_result("{}\n", device["usable"].get<bool>() ? "usable" : "lacks " + joined(lacks));
     }
     if (devices.empty()) {
-        fmt::print("vulkan  no device{}\n", reason.empty() ? "" : ": " + reason);
+        print_result("vulkan  no device{}\n", reason.empty() ? "" : ": " + reason);
     }
     return exit_done;
 }

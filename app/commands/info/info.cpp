@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "pack/packed_scene.h"
 #include "session/open_session.h"
 #include "render/film.h"
+#include "console/output.h"
 #include "console/option_names.h"
 #include "console/report.h"
 #include "pose/clips.h"
@@ -160,31 +160,31 @@ std::string words(const nlohmann::ordered_json& list) {
 
 void print_info(const nlohmann::ordered_json& json) {
     const auto number = [&](const char* name) { return json.at(name).get<std::uint64_t>(); };
-    fmt::print("{}\n", json.at("scene").get<std::string>());
-    fmt::print("  triangles   {} stored in {} meshes, {} placed by {} instances\n", number("triangles"),
-               number("meshes"), number("placed_triangles"), number("instances"));
-    fmt::print("  lights      {}: {} emissive triangles, {} punctual\n", number("lights"),
-               number("emissive_triangles"), number("punctual_lights"));
-    fmt::print("  materials   {}, textures {} of {} images\n", number("materials"), number("textures"),
-               number("images"));
-    fmt::print("  cameras     {}\n", words(json.at("cameras")));
+    print_result("{}\n", json.at("scene").get<std::string>());
+    print_result("  triangles   {} stored in {} meshes, {} placed by {} instances\n", number("triangles"),
+                 number("meshes"), number("placed_triangles"), number("instances"));
+    print_result("  lights      {}: {} emissive triangles, {} punctual\n", number("lights"),
+                 number("emissive_triangles"), number("punctual_lights"));
+    print_result("  materials   {}, textures {} of {} images\n", number("materials"), number("textures"),
+                 number("images"));
+    print_result("  cameras     {}\n", words(json.at("cameras")));
     if (number("animations") > 0) {
-        fmt::print("  animations  {}, {} s long\n", number("animations"), json.at("animation_seconds").get<double>());
+        print_result("  animations  {}, {} s long\n", number("animations"), json.at("animation_seconds").get<double>());
         for (const auto& clip : json.at("clips")) {
-            fmt::print("    {:<3} '{}', {} s, {} channels\n", clip.at("index").get<std::size_t>(),
-                       clip.at("name").get<std::string>(), clip.at("seconds").get<double>(),
-                       clip.at("channels").get<std::size_t>());
+            print_result("    {:<3} '{}', {} s, {} channels\n", clip.at("index").get<std::size_t>(),
+                         clip.at("name").get<std::string>(), clip.at("seconds").get<double>(),
+                         clip.at("channels").get<std::size_t>());
         }
     }
     if (json.contains("bounds")) {
-        fmt::print("  bounds      {} to {}\n", json["bounds"][0].dump(), json["bounds"][1].dump());
+        print_result("  bounds      {} to {}\n", json["bounds"][0].dump(), json["bounds"][1].dump());
     }
-    fmt::print("  needs       {}\n", words(json.at("features")));
-    fmt::print("  left out    {}\n", words(json.at("left_out")));
-    fmt::print("  memory      {} at {}x{} on {}\n", byte_text(json.at("bytes").get<double>()), number("width"),
-               number("height"), json.at("backend").get<std::string>());
+    print_result("  needs       {}\n", words(json.at("features")));
+    print_result("  left out    {}\n", words(json.at("left_out")));
+    print_result("  memory      {} at {}x{} on {}\n", byte_text(json.at("bytes").get<double>()), number("width"),
+                 number("height"), json.at("backend").get<std::string>());
     const auto part = [](const std::string& name, const nlohmann::ordered_json& bytes) {
-        fmt::print("    {:<23} {:>12}\n", name, byte_text(bytes.get<double>()));
+        print_result("    {:<23} {:>12}\n", name, byte_text(bytes.get<double>()));
     };
     for (const auto& [name, bytes] : json.at("buffers").items()) {
         part(name, bytes);

@@ -7,6 +7,7 @@
 
 #include "commands/command.h"
 #include "commands/render/kept_work.h"
+#include "console/output.h"
 #include "console/repeat_command.h"
 #include "error.h"
 #include "image/image_file.h"
@@ -132,7 +133,7 @@ int run_merge(const MergeOptions& options) {
     }
     describe(options, whole);
     save_film_file(whole, options.output, options.sums || !missing.empty());
-    fmt::print("{}: {}x{}, samples {} of {} parts\n", options.output, whole.film.width, whole.film.height,
+    print_note("{}: {}x{}, samples {} of {} parts\n", options.output, whole.film.width, whole.film.height,
                whole.samples.text(), parts.size());
     return exit_done;
 }

@@ -10,6 +10,7 @@
 #include "commands/render/live_view.h"
 #include "pack/features.h"
 #include "pack/fingerprint.h"
+#include "console/output.h"
 #include "console/progress_line.h"
 #include "render/film_statistics.h"
 #include "render/progressive.h"
@@ -98,7 +99,7 @@ public:
             kept_ = find_kept_work(session_, request_, *audience_.files, render_metadata(request_, outcome_));
         }
         if (kept_.spp > 0 && !audience_.quiet) {
-            fmt::print("{}: going on from its {} samples per pixel\n", kept_.path, kept_.spp);
+            print_note("{}: going on from its {} samples per pixel\n", kept_.path, kept_.spp);
         }
         ProgressiveTarget target;
         target.first = (request_.samples ? static_cast<std::uint32_t>(request_.samples->first) : 0) + kept_.spp;
@@ -272,7 +273,7 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
     picture.json["output"] = path;
     picture.json["kept_spp"] = work.kept().spp;
     if (!audience.quiet) {
-        fmt::print("{}: {}x{}, {} spp in {:.2f} s on {}{}\n", path, film.width, film.height, work.outcome().spp,
+        print_note("{}: {}x{}, {} spp in {:.2f} s on {}{}\n", path, film.width, film.height, work.outcome().spp,
                    work.outcome().seconds, work.outcome().device,
                    !result.interrupted    ? ""
                    : work.resumable() ? ", interrupted; the same command goes on from it"

@@ -8,6 +8,7 @@
 #include "error.h"
 #include "settings/names.h"
 #include "commands/replay/text.h"
+#include "console/output.h"
 #include "console/report.h"
 #include "session/scene_setup.h"
 
@@ -35,7 +36,7 @@ struct ReplayOptions {
     bool json = false;
 };
 
-void print_result(const ReplayOptions& options, const Replay& replay, const shared::RenderConstants& constants) {
+void print_replay(const ReplayOptions& options, const Replay& replay, const shared::RenderConstants& constants) {
     const RenderSettings& settings = options.arguments.request.settings;
     if (options.json) {
         nlohmann::ordered_json json;
@@ -50,12 +51,12 @@ void print_result(const ReplayOptions& options, const Replay& replay, const shar
         print_json(json);
         return;
     }
-    fmt::print("{}: pixel {},{} of {}x{}, sample {}, seed {}, {}, depth {}\n", options.arguments.request.scene,
-               options.pixel[0], options.pixel[1], settings.width, settings.height, options.sample, settings.seed,
-               name_of(settings.integrator), settings.max_depth);
-    fmt::print("{}", replay_text(replay, constants));
+    print_result("{}: pixel {},{} of {}x{}, sample {}, seed {}, {}, depth {}\n", options.arguments.request.scene,
+                 options.pixel[0], options.pixel[1], settings.width, settings.height, options.sample, settings.seed,
+                 name_of(settings.integrator), settings.max_depth);
+    print_result("{}", replay_text(replay, constants));
     if (replay.paths.size() > 1) {
-        fmt::print("{}\n", parting_text(replay));
+        print_result("{}\n", parting_text(replay));
     }
 }
 
@@ -75,7 +76,7 @@ int run_replay(ReplayOptions options) {
     const shared::PathQuery query{{options.pixel[0], options.pixel[1]}, options.sample};
     std::vector<Session> sessions = open_sessions(scene, settings, options.pair);
     const Replay replay = replay_path(sessions, query, options.tolerance);
-    print_result(options, replay, sessions.front().packed().constants);
+    print_replay(options, replay, sessions.front().packed().constants);
     return exit_done;
 }
 

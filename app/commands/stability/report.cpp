@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "image/atomic_file.h"
+#include "console/output.h"
 #include "console/report.h"
 
 namespace diptych::core::app {
@@ -82,7 +83,7 @@ void print_case_list(const std::vector<const Case*>& cases, bool json) {
         if (json) {
             list.push_back({{"row", c->row}, {"case", c->name}, {"range", range}, {"bound", c->bound}});
         } else {
-            fmt::print("{:<20} {}{}\n", c->row, c->name, range.empty() ? "" : " (" + range + ")");
+            print_result("{:<20} {}{}\n", c->row, c->name, range.empty() ? "" : " (" + range + ")");
         }
     }
     if (json) {
@@ -92,30 +93,30 @@ void print_case_list(const std::vector<const Case*>& cases, bool json) {
 
 void print_report(const stability::Report& report) {
     for (const stability::MeasuredBackend& backend : report.backends) {
-        fmt::print("{}: {}\n", backend.name, backend.device);
+        print_result("{}: {}\n", backend.name, backend.device);
     }
-    fmt::print("\n| row | case | range | error |");
+    print_result("\n| row | case | range | error |");
     for (const stability::MeasuredBackend& backend : report.backends) {
-        fmt::print(" {} | not finite |", backend.name);
+        print_result(" {} | not finite |", backend.name);
     }
-    fmt::print(" bound | verdict | where |\n|---|---|---|---|");
+    print_result(" bound | verdict | where |\n|---|---|---|---|");
     for (std::size_t b = 0; b < report.backends.size(); ++b) {
-        fmt::print("---|---|");
+        print_result("---|---|");
     }
-    fmt::print("---|---|---|\n");
+    print_result("---|---|---|\n");
     std::size_t failed = 0;
     for (const stability::MeasuredCase& m : report.cases) {
         const Case& c = *m.which;
-        fmt::print("| {} | {} | {} | {} |", c.row, c.name, range_text(c, report.effort), c.measure);
+        print_result("| {} | {} | {} | {} |", c.row, c.name, range_text(c, report.effort), c.measure);
         const CaseResult* worst = &m.results.front();
         for (const CaseResult& r : m.results) {
-            fmt::print(" {:.2g} | {} |", r.worst, r.nonfinite);
+            print_result(" {:.2g} | {} |", r.worst, r.nonfinite);
             worst = r.worst > worst->worst ? &r : worst;
         }
-        fmt::print(" {:g} | {} | {} |\n", c.bound, passes(m) ? "holds" : "FAILS", where_text(c, *worst));
+        print_result(" {:g} | {} | {} |\n", c.bound, passes(m) ? "holds" : "FAILS", where_text(c, *worst));
         failed += passes(m) ? 0 : 1;
     }
-    fmt::print("\n{} of {} cases hold their bounds\n", report.cases.size() - failed, report.cases.size());
+    print_result("\n{} of {} cases hold their bounds\n", report.cases.size() - failed, report.cases.size());
 }
 
 nlohmann::ordered_json to_json(const stability::Report& report) {

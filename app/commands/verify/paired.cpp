@@ -12,6 +12,7 @@
 #include "image/figures.h"
 #include "image/image_file.h"
 #include "measure/paired_run.h"
+#include "console/output.h"
 #include "console/repeat_command.h"
 #include "settings/names.h"
 #include "console/report.h"
@@ -39,29 +40,30 @@ double largest_z(const PairedReport& report) {
 void print_report(RenderRequest request, const Figured& run) {
     request.settings.integrator = run.paths.integrator;
     const PairedReport& report = run.paths.report;
-    fmt::print("{}: {} paths; {:.4f} % decided alike, their largest difference is {:.2e}",
-               name_of(run.paths.integrator), report.paths, percent(report.alike, report.paths), report.worst_relative);
-    fmt::print("{}\n", report.drifted > 0 ? fmt::format(", {} are above 1e-3", report.drifted) : "");
-    fmt::print("  {:>8} {:>12} {:>10} {:>12}\n", "vertex", "paths", "parted", "fraction");
+    print_result("{}: {} paths; {:.4f} % decided alike, their largest difference is {:.2e}",
+                 name_of(run.paths.integrator), report.paths, percent(report.alike, report.paths),
+                 report.worst_relative);
+    print_result("{}\n", report.drifted > 0 ? fmt::format(", {} are above 1e-3", report.drifted) : "");
+    print_result("  {:>8} {:>12} {:>10} {:>12}\n", "vertex", "paths", "parted", "fraction");
     for (std::size_t i = 0; i < report.bounces.size(); ++i) {
         const PairedBounce& bounce = report.bounces[i];
-        fmt::print("  {:>8} {:>12} {:>10} {:>12.2e}\n", i, bounce.reached, bounce.parted,
-                   percent(bounce.parted, bounce.reached) / 100);
+        print_result("  {:>8} {:>12} {:>10} {:>12.2e}\n", i, bounce.reached, bounce.parted,
+                     percent(bounce.parted, bounce.reached) / 100);
     }
     const auto& sum = report.divergent_sum;
     const auto& error = report.divergent_error;
-    fmt::print("  sum of the signed differences {:.3g} {:.3g} {:.3g} +- {:.3g} {:.3g} {:.3g}, z {:.2f}\n", sum[0],
-               sum[1], sum[2], error[0], error[1], error[2], largest_z(report));
+    print_result("  sum of the signed differences {:.3g} {:.3g} {:.3g} +- {:.3g} {:.3g} {:.3g}, z {:.2f}\n", sum[0],
+                 sum[1], sum[2], error[0], error[1], error[2], largest_z(report));
     for (const PairedExample& example : report.drifted_examples) {
-        fmt::print("  drifted by {:.2e}: {}\n", example.difference, replay_command(request, example.query));
+        print_result("  drifted by {:.2e}: {}\n", example.difference, replay_command(request, example.query));
     }
     for (const PairedExample& example : report.parted_examples) {
-        fmt::print("  parts at vertex {}: {}\n", example.vertex, replay_command(request, example.query));
+        print_result("  parts at vertex {}: {}\n", example.vertex, replay_command(request, example.query));
     }
-    fmt::print("  {}{} in {:.1f} s\n", name_of(report.verdict), report.reason.empty() ? "" : ": " + report.reason,
-               run.seconds);
+    print_result("  {}{} in {:.1f} s\n", name_of(report.verdict), report.reason.empty() ? "" : ": " + report.reason,
+                 run.seconds);
     if (!run.figure.empty()) {
-        fmt::print("  {}: fraction of each pixel's paths that part, from 0 (black) to 10 % (yellow)\n", run.figure);
+        print_result("  {}: fraction of each pixel's paths that part, from 0 (black) to 10 % (yellow)\n", run.figure);
     }
 }
 
@@ -160,7 +162,7 @@ int run_paired(RenderArguments arguments, const PairArguments& pair, const Paire
         }
         print_json(json);
     } else {
-        fmt::print("{}\n", name_of(verdict));
+        print_result("{}\n", name_of(verdict));
     }
     const bool fails = verdict == PairedVerdict::fail || (options.require_pass && verdict != PairedVerdict::pass);
     return fails ? exit_check_failed : exit_done;

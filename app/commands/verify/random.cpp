@@ -10,6 +10,7 @@
 #include "commands/arguments/recommended_arguments.h"
 #include "commands/command.h"
 #include "error.h"
+#include "console/output.h"
 #include "console/interrupt.h"
 #include "random_scene/random_suite.h"
 #include "random_scene/scene_files.h"
@@ -144,10 +145,10 @@ Refusal write_refusal(const RandomRefusal& refusal, const VerifyOptions& options
 void print_failure(const Failure& failure) {
     const RandomPair& pair = failure.pair;
     const TileComparison& c = pair.comparison;
-    fmt::print("seed {}: {}: {:.3g} % [{:.3g}, {:.3g}], adjusted p {:.2g}: {}\n  {}: {}\n", pair.scene, text_of(pair),
-               c.bias_percent, c.ci95_percent[0], c.ci95_percent[1], pair.verdict.adjusted_p,
-               pair.verdict.reason, failure.file, failure.command);
-    fmt::print("  to test the whole scene: {}\n", failure.verify);
+    print_result("seed {}: {}: {:.3g} % [{:.3g}, {:.3g}], adjusted p {:.2g}: {}\n  {}: {}\n", pair.scene, text_of(pair),
+                 c.bias_percent, c.ci95_percent[0], c.ci95_percent[1], pair.verdict.adjusted_p,
+                 pair.verdict.reason, failure.file, failure.command);
+    print_result("  to test the whole scene: {}\n", failure.verify);
 }
 
 nlohmann::ordered_json pair_json(const RandomPair& pair) {
@@ -187,9 +188,9 @@ struct Findings {
 
 void print_power(const char* what, const ReachedPower& power, double wanted) {
     if (power.pairs > 0) {
-        fmt::print("{}: {} comparisons; 95 % half-width of the image mean: median {:.3g} %, worst {:.3g} %; "
-                   "{:.0f} % are within {} %\n",
-                   what, power.pairs, power.median, power.worst, 100 * power.reached_share, wanted);
+        print_result("{}: {} comparisons; 95 % half-width of the image mean: median {:.3g} %, worst {:.3g} %; "
+                     "{:.0f} % are within {} %\n",
+                     what, power.pairs, power.median, power.worst, 100 * power.reached_share, wanted);
     }
 }
 
@@ -229,16 +230,16 @@ void print_suite(const VerifyOptions& options, const JudgeOptions& judged_with, 
         return;
     }
     for (const Refusal& refusal : findings.refusals) {
-        fmt::print("seed {}: refused: {}\n  {}\n", refusal.scene, refusal.reason, refusal.file);
+        print_result("seed {}: refused: {}\n  {}\n", refusal.scene, refusal.reason, refusal.file);
     }
     for (const Failure& failure : findings.failures) {
         print_failure(failure);
     }
-    fmt::print("{} scenes from seed {}, {:.0f} s{}\n", report.scenes, options.seed, report.seconds,
-               report.interrupted ? fmt::format("; interrupted, {} were requested", options.random) : "");
+    print_result("{} scenes from seed {}, {:.0f} s{}\n", report.scenes, options.seed, report.seconds,
+                 report.interrupted ? fmt::format("; interrupted, {} were requested", options.random) : "");
     print_power("cpu - oracle or path", report.oracle_power, judged_with.half_width_percent);
     print_power("vulkan - cpu, common seeds", report.common_power, judged_with.half_width_percent);
-    fmt::print("{}\n", name_of(report.verdict));
+    print_result("{}\n", name_of(report.verdict));
 }
 
 }  // namespace

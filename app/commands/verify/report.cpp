@@ -8,6 +8,7 @@
 #include "build_info.h"
 #include "stats/kolmogorov_smirnov.h"
 #include "commands/arguments/typed_command.h"
+#include "console/output.h"
 
 namespace diptych::core::app {
 
@@ -47,19 +48,19 @@ int name_width(const VerifyOptions& options) {
 
 void print_pair(const PairResult& pair, const VerifyOptions& options) {
     const TileComparison& c = pair.comparison;
-    fmt::print(
+    print_result(
         "{:<{}} {:>11} {:>9.4f}  [{:>8.4f}, {:>8.4f}] {:>8.4f} {:>8.4f} {:>5.0f}% {:>9.2g} {:>9.2g} {:>9.2g}  {}\n",
         text_of(pair.names), name_width(options),
         pair.spp == pair.spp_b ? fmt::format("{}", pair.spp) : fmt::format("{}:{}", pair.spp, pair.spp_b),
         c.bias_percent, c.ci95_percent[0], c.ci95_percent[1], c.half_width_percent, pair.verdict.min_detectable_percent,
         100 * c.resolved_share, c.global_p, c.fisher_p, c.min_p, name_of(pair.verdict.verdict));
     if (pair.verdict.verdict != Verdict::pass) {
-        fmt::print("    {}{}\n", pair.verdict.reason,
-                   pair.verdict.verdict == Verdict::inconclusive
-                       ? ": try " + samples_text(more_of(pair.spp, pair.verdict.more_samples, options),
-                                                 more_of(pair.spp_b, pair.verdict.more_samples, options),
-                                                 pair.spp != pair.spp_b)
-                       : "");
+        print_result("    {}{}\n", pair.verdict.reason,
+                     pair.verdict.verdict == Verdict::inconclusive
+                         ? ": try " + samples_text(more_of(pair.spp, pair.verdict.more_samples, options),
+                                                   more_of(pair.spp_b, pair.verdict.more_samples, options),
+                                                   pair.spp != pair.spp_b)
+                         : "");
     }
 }
 
@@ -96,29 +97,29 @@ std::string next_command(const VerifyOptions& options, const SuiteResult& suite)
 
 void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
     const RenderSettings& settings = options.arguments.request.settings;
-    fmt::print("{} at {}x{}: {} runs per side{}, {} tiles of {}x{}, seed {}, {:.1f} s\n",
-               options.arguments.request.scene, settings.width, settings.height, options.runs,
-               options.common_seeds ? " with common seeds" : "",
-               suite.grid.columns * suite.grid.rows, options.tile, options.tile, suite.seed, suite.seconds);
+    print_result("{} at {}x{}: {} runs per side{}, {} tiles of {}x{}, seed {}, {:.1f} s\n",
+                 options.arguments.request.scene, settings.width, settings.height, options.runs,
+                 options.common_seeds ? " with common seeds" : "",
+                 suite.grid.columns * suite.grid.rows, options.tile, options.tile, suite.seed, suite.seconds);
     if (!options.frames.empty()) {
         const RenderRequest& request = options.arguments.request;
-        fmt::print("Sequence from {:g} s on, {:g} frames per second{}; restir has {} sample{} per frame\n",
-                   request.start, request.fps,
-                   request.orbit != 0 ? fmt::format(", camera turns by {:g} degrees per frame", request.orbit) : "",
-                   options.frame_spp, options.frame_spp == 1 ? "" : "s");
+        print_result("Sequence from {:g} s on, {:g} frames per second{}; restir has {} sample{} per frame\n",
+                     request.start, request.fps,
+                     request.orbit != 0 ? fmt::format(", camera turns by {:g} degrees per frame", request.orbit) : "",
+                     options.frame_spp, options.frame_spp == 1 ? "" : "s");
     }
-    fmt::print("{:<{}} {:>11} {:>9}  {:^20} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9}  verdict\n", "pair",
-               name_width(options), "spp", "bias %", "95 % interval", "+-", "detects", "tiles", "image p", "Fisher p",
-               "least p");
+    print_result("{:<{}} {:>11} {:>9}  {:^20} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9}  verdict\n", "pair",
+                 name_width(options), "spp", "bias %", "95 % interval", "+-", "detects", "tiles", "image p", "Fisher p",
+                 "least p");
     for (const PairResult& pair : suite.pairs) {
         print_pair(pair, options);
     }
-    fmt::print(
+    print_result(
         "\"+-\" is the 95 % half-width of the image mean, of the channel where it is widest. \"tiles\" is the share of "
         "tiles with a half-width of at most 1 %.\n"
         "PASS needs \"+-\" <= {:.3g} %, and a half-width of at most {:.3g} % in half of the tiles.\n",
         options.max_half_width, options.max_tile_half_width);
-    fmt::print(
+    print_result(
         "FAIL has a family-wise alpha of {:.2g}{}. A bias of \"detects\" % of the image mean is found with probability "
         "0.9.\n",
         options.alpha,
@@ -127,12 +128,12 @@ void print_suite(const VerifyOptions& options, const SuiteResult& suite) {
                           options.alpha / 10)
             : "");
     if (options.fresh_seeds) {
-        fmt::print("To repeat: --fresh-seeds --seed {}\n", suite.seed);
+        print_result("To repeat: --fresh-seeds --seed {}\n", suite.seed);
     }
     if (const std::string next = next_command(options, suite); !next.empty()) {
-        fmt::print("To tell: {}\n", next);
+        print_result("To tell: {}\n", next);
     }
-    fmt::print("{}\n", name_of(verdict_of(suite)));
+    print_result("{}\n", name_of(verdict_of(suite)));
 }
 
 nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteResult& suite) {

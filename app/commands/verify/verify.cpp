@@ -9,6 +9,7 @@
 #include "clock.h"
 #include "commands/command.h"
 #include "error.h"
+#include "console/output.h"
 #include "console/interrupt.h"
 #include "settings/names.h"
 #include "console/report.h"
@@ -53,7 +54,7 @@ public:
     explicit RunLine(std::uint32_t runs) : runs_(runs), terminal_(isatty(STDERR_FILENO) == 1) {}
     ~RunLine() {
         if (terminal_ && shown_) {
-            fmt::print(stderr, "\r\x1b[K");
+            print_message("\r\x1b[K");
         }
     }
     RunLine(const RunLine&) = delete;
@@ -68,9 +69,8 @@ public:
         }
         next_ = terminal_ ? seconds + 0.1 : 2 * seconds;
         shown_ = true;
-        fmt::print(stderr, "{}{}: run {} of {}, {:.0f} s{}", terminal_ ? "\r" : "", text_of(side), run + 1, runs_,
-                   seconds, terminal_ ? "\x1b[K" : "\n");
-        std::fflush(stderr);
+        print_message("{}{}: run {} of {}, {:.0f} s{}", terminal_ ? "\r" : "", text_of(side), run + 1, runs_,
+                      seconds, terminal_ ? "\x1b[K" : "\n");
     }
 
 private:
