@@ -7,8 +7,7 @@
 #include "error.h"
 #include "console/option_names.h"
 #include "console/report.h"
-#include "gltf/files.h"
-#include "image/picture_name.h"
+#include "session/input_files.h"
 #include "session/scene_setup.h"
 
 namespace diptych::core::app {
@@ -16,16 +15,6 @@ namespace diptych::core::app {
 namespace {
 
 constexpr auto between_looks = std::chrono::milliseconds(250);
-
-std::vector<std::filesystem::path> files_of(const RenderRequest& request) {
-    std::vector<std::filesystem::path> files = gltf_files(request.scene);
-    std::error_code ignored;
-    if (const PictureName map = picture_name(request.environment);
-        std::filesystem::is_regular_file(map.file, ignored)) {
-        files.push_back(map.file);
-    }
-    return files;
-}
 
 std::vector<FileStamp> stamps_of(const std::vector<std::filesystem::path>& files) {
     std::vector<FileStamp> stamps;
@@ -44,7 +33,7 @@ LoadedScene load_scene(const RenderRequest& request, std::uint64_t generation) {
     loaded.generation = generation;
     loaded.request = request;
     // Before it is read: what changes meanwhile is read again.
-    loaded.files = files_of(request);
+    loaded.files = input_files(request);
     loaded.stamps = stamps_of(loaded.files);
     auto scene = std::make_shared<Scene>(load_requested(loaded.request));
     loaded.bounds = scene_bounds(*scene);

@@ -15,6 +15,7 @@
 #include "image/metrics.h"
 #include "image/picture_name.h"
 #include "image/tonemap_image.h"
+#include "session/input_files.h"
 #include "console/output.h"
 #include "console/report.h"
 
@@ -198,6 +199,11 @@ int run_compare(const CompareOptions& options) {
         if (image_format(options.output) != ImageFormat::Png) {
             throw Error(fmt::format("{}: the figure must be a .png file", options.output));
         }
+        std::vector<std::filesystem::path> inputs{picture_name(options.a).file, picture_name(options.b).file};
+        for (const std::string& name : options.minus) {
+            inputs.push_back(picture_name(name).file);
+        }
+        refuse_inputs({options.output}, inputs);
     }
     tonemap_from_name(options.tonemap);
     Pictures pictures = read_pictures(options);

@@ -10,6 +10,7 @@
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
 #include "console/report.h"
+#include "session/input_files.h"
 #include "session/scene_setup.h"
 #include "view/headless.h"
 #include "view/loader.h"
@@ -81,6 +82,10 @@ void check_view_options(ViewOptions& options) {
     }
     if (!options.output.empty()) {
         check_writable(options.output);
+        refuse_inputs({options.output}, request);
+    }
+    if (!options.log.empty()) {
+        refuse_inputs({options.log}, request);
     }
     request.device = options.device;
     request.threads = options.threads;
