@@ -1,22 +1,23 @@
 #include "render/save_film.h"
 
+#include <cstdlib>
+
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
 #include "render/film_words.h"
 
 namespace diptych::core {
 
-namespace {
+LayeredImage developed_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome) {
+    LayeredImage layers = develop(film);
+    layers.metadata = render_metadata(request, outcome);
+    return layers;
+}
 
-struct Shown {
-    std::string tonemap;
-    double exposure = 0;
-};
-
-void write(const std::string& path, const Film& film, const LayeredImage& layers, bool sums, const Shown& shown) {
+void save_layers(const LayeredImage& layers, const Film& film, const RenderRequest& request, const std::string& path) {
     switch (image_format(path)) {
     case ImageFormat::Exr:
-        if (sums) {
+        if (request.sums) {
             const WordChannels words = film_words(film);
             write_exr(path, layers, &words);
         } else {
@@ -24,7 +25,8 @@ void write(const std::string& path, const Film& film, const LayeredImage& layers
         }
         break;
     case ImageFormat::Png:
-        write_png(path, tonemapped(layers.color, tonemap_from_name(shown.tonemap), static_cast<float>(shown.exposure)));
+        write_png(path,
+                  tonemapped(layers.color, tonemap_from_name(request.tonemap), static_cast<float>(request.exposure)));
         break;
     case ImageFormat::Hdr:
         write_hdr(path, layers.color);
@@ -32,26 +34,24 @@ void write(const std::string& path, const Film& film, const LayeredImage& layers
     }
 }
 
-}  // namespace
-
 LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome) {
-    LayeredImage layers = develop(film);
-    layers.metadata = render_metadata(request, outcome);
-    write(request.output, film, layers, request.sums, {request.tonemap, request.exposure});
+    LayeredImage layers = developed_film(film, request, outcome);
+    save_layers(layers, film, request, request.output);
     return layers;
 }
 
 void save_film_file(const FilmFile& file, const std::string& path, bool sums) {
     LayeredImage layers = develop(file.film);
     layers.metadata = file.metadata;
-    Shown shown{tonemap_name(default_tonemap), 0};
+    RenderRequest shown;
+    shown.sums = sums;
     if (const auto found = file.metadata.find("tonemap"); found != file.metadata.end()) {
         shown.tonemap = found->second;
     }
     if (const auto found = file.metadata.find("exposure"); found != file.metadata.end()) {
         shown.exposure = std::strtod(found->second.c_str(), nullptr);
     }
-    write(path, file.film, layers, sums, shown);
+    save_layers(layers, file.film, shown, path);
 }
 
 }  // namespace diptych::core

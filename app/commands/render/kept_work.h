@@ -18,6 +18,7 @@ struct WorkFiles {
     double every = 60;        // seconds between two of them
     std::string resume;       // samples to go on from; empty is what lies beside the output
     bool overwrite = false;   // begin anew, and replace whatever is there
+    std::string fallback_folder;  // for what cannot be written to its place (save_picture.h)
 };
 
 /// "out.part.exr" for "out.png": where unfinished work goes.

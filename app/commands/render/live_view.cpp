@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <netdb.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <cstring>
 #include <memory>
 
+#include "clock.h"
 #include "error.h"
 #include "console/report.h"
 #include "commands/render/tev_packets.h"
@@ -21,6 +23,9 @@ namespace diptych::core::app {
 namespace {
 
 constexpr int patience_seconds = 5;
+constexpr double show_seconds = 0.1;
+constexpr double least_finish_seconds = 0.5;
+constexpr int look_milliseconds = 20;  // at the clock and at a wish to stop, while a viewer takes nothing
 constexpr std::size_t band_bytes = std::size_t{1} << 20U;  // of a packet: the viewer shows each as it comes
 
 struct Endpoint {
@@ -67,6 +72,11 @@ int connect_to(const addrinfo& address) {
     return -1;
 }
 
+int band_rows(const Image& image) {
+    const std::size_t row_bytes = static_cast<std::size_t>(image.width) * 3 * sizeof(float);
+    return static_cast<int>(std::clamp<std::size_t>(band_bytes / row_bytes, 1, static_cast<std::size_t>(image.height)));
+}
+
 }  // namespace
 
 LiveView::LiveView(const std::string& endpoint) : endpoint_(endpoint) {
@@ -95,40 +105,100 @@ LiveView::~LiveView() {
     }
 }
 
-void LiveView::show(const std::string& name, const Image& image) {
-    if (socket_ < 0) {
+/// Until when a viewer is waited for.
+struct LiveView::Deadline {
+    double at = 0;
+    const std::atomic<bool>* cancel = nullptr;
+
+    bool passed() const { return now_seconds() >= at || (cancel != nullptr && *cancel); }
+};
+
+void LiveView::show(const std::string& name, const Image& image, const std::atomic<bool>& cancel) {
+    const Deadline deadline{now_seconds() + show_seconds, &cancel};
+    if (!announce(name, image, deadline)) {
         return;
     }
-    const std::string picture = fmt::format("{} {}x{}", name, image.width, image.height);
-    if (picture != shown_) {
-        const TevPacket packet = tev_create_image(name, image.width, image.height);
-        send(packet.data(), packet.size());
-        shown_ = picture;
+    const int band = band_rows(image);
+    for (int done = 0; done < image.height;) {
+        const int rows = std::min(band, image.height - next_row_);
+        if (!send_rows(name, image, next_row_, rows, deadline)) {
+            break;
+        }
+        next_row_ = (next_row_ + rows) % image.height;
+        done += rows;
     }
-    const std::size_t row_bytes = static_cast<std::size_t>(image.width) * 3 * sizeof(float);
-    const int band =
-        static_cast<int>(std::clamp<std::size_t>(band_bytes / row_bytes, 1, static_cast<std::size_t>(image.height)));
-    for (int row = 0; row < image.height && socket_ >= 0; row += band) {
-        const TevPacket packet = tev_update_image(name, image, row, std::min(band, image.height - row));
-        send(packet.data(), packet.size());
+    flush(deadline);
+    if (sent_ < unsent_.size() && now_seconds() - last_progress_ > patience_seconds) {
+        hang_up("takes no more data");
     }
 }
 
-void LiveView::send(const void* data, std::size_t size) {
-    const auto* next = static_cast<const std::uint8_t*>(data);
-    while (size > 0 && socket_ >= 0) {
-        const ssize_t sent = ::send(socket_, next, size, MSG_NOSIGNAL);
+void LiveView::finish(const std::string& name, const Image& image, double seconds) {
+    const double patience = std::max(seconds, least_finish_seconds);
+    const Deadline deadline{now_seconds() + patience, nullptr};
+    bool whole = announce(name, image, deadline);
+    const int band = band_rows(image);
+    for (int row = 0; row < image.height && whole; row += band) {
+        whole = send_rows(name, image, row, std::min(band, image.height - row), deadline);
+    }
+    whole = whole && flush(deadline);
+    if (!whole && socket_ >= 0 && !warned_) {
+        report_warning(fmt::format("--live {}: has not taken the whole picture within {:.1f} s", endpoint_, patience));
+        warned_ = true;
+    }
+}
+
+bool LiveView::announce(const std::string& name, const Image& image, const Deadline& deadline) {
+    const std::string picture = fmt::format("{} {}x{}", name, image.width, image.height);
+    if (picture == shown_) {
+        return socket_ >= 0;
+    }
+    if (!flush(deadline)) {
+        return false;
+    }
+    queue(tev_create_image(name, image.width, image.height));
+    shown_ = picture;
+    next_row_ = 0;
+    return true;
+}
+
+bool LiveView::send_rows(const std::string& name, const Image& image, int first, int count, const Deadline& deadline) {
+    if (!flush(deadline)) {
+        return false;
+    }
+    queue(tev_update_image(name, image, first, count));
+    return true;
+}
+
+void LiveView::queue(std::vector<std::uint8_t> packet) {
+    unsent_ = std::move(packet);
+    sent_ = 0;
+    last_progress_ = now_seconds();
+}
+
+bool LiveView::flush(const Deadline& deadline) {
+    while (socket_ >= 0 && sent_ < unsent_.size()) {
+        if (deadline.passed()) {
+            return false;
+        }
+        const ssize_t sent = ::send(socket_, &unsent_[sent_], unsent_.size() - sent_, MSG_NOSIGNAL | MSG_DONTWAIT);
         if (sent > 0) {
-            next += sent;
-            size -= static_cast<std::size_t>(sent);
+            sent_ += static_cast<std::size_t>(sent);
+            last_progress_ = now_seconds();
+        } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+            pollfd space = {socket_, POLLOUT, 0};
+            poll(&space, 1, look_milliseconds);
         } else if (errno != EINTR) {
-            const bool stalled = errno == EAGAIN || errno == EWOULDBLOCK;
-            report_warning(fmt::format("--live {}: {}; the render goes on without it", endpoint_,
-                                       stalled ? "takes no more data" : std::strerror(errno)));
-            close(socket_);
-            socket_ = -1;
+            hang_up(std::strerror(errno));
         }
     }
+    return socket_ >= 0;
+}
+
+void LiveView::hang_up(const std::string& reason) {
+    report_warning(fmt::format("--live {}: {}; the render goes on without it", endpoint_, reason));
+    close(socket_);
+    socket_ = -1;
 }
 
 }  // namespace diptych::core::app

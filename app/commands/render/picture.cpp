@@ -3,38 +3,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <optional>
 
-#include "clock.h"
 #include "commands/render/live_view.h"
-#include "pack/features.h"
-#include "pack/fingerprint.h"
+#include "commands/render/picture_work.h"
+#include "console/exit_codes.h"
+#include "console/interrupt.h"
 #include "console/output.h"
 #include "console/progress_line.h"
-#include "render/film_statistics.h"
-#include "render/progressive.h"
 #include "console/repeat_command.h"
-#include "render/merge_films.h"
-#include "render/metadata.h"
-#include "settings/names.h"
 #include "console/report.h"
+#include "error.h"
+#include "pack/features.h"
+#include "render/film_statistics.h"
+#include "render/lasting_picture.h"
+#include "settings/names.h"
 
 namespace diptych::core::app {
 
 namespace {
 
-/// Some pixels have more samples than others.
-bool is_uneven(const Film& film) {
-    const auto count = [](const shared::FilmPixel& pixel) { return pixel.samples + pixel.nonfinite; };
-    return std::any_of(film.pixels.begin(), film.pixels.end(),
-                       [&](const shared::FilmPixel& pixel) { return count(pixel) != count(film.pixels.front()); });
+/// Seconds for the last picture to reach a viewer: a twentieth of the rendering time, and no wait that a user feels
+/// where the render was interrupted.
+double last_show_seconds(const ProgressiveResult& result) {
+    return result.interrupted ? 0 : std::min(result.seconds / 20, 10.0);
 }
 
-nlohmann::ordered_json picture_json(const RenderRequest& request, const RenderOutcome& outcome, const Renderer& renderer,
-                               const FilmTotals& totals, const std::optional<double>& relmse, std::uint32_t features,
-                               double device_seconds, const std::vector<PassTime>& passes) {
+nlohmann::ordered_json json_of(const RenderRequest& request, const RenderOutcome& outcome, const SavedPicture& saved,
+                               const Renderer& renderer, const Film& film, std::uint32_t features) {
     const RendererCosts costs = renderer.costs();
+    const FilmTotals totals = film_totals(film);
+    const std::optional<double> relmse = estimated_relmse(film);
     const double seconds = std::max(outcome.seconds, 1e-12);
     nlohmann::ordered_json json;
     json["backend"] = renderer.backend();
@@ -50,14 +48,11 @@ nlohmann::ordered_json picture_json(const RenderRequest& request, const RenderOu
     json["seconds"] = outcome.seconds;
     json["rays"] = outcome.rays;
     json["nonfinite"] = outcome.nonfinite;
-    json["output"] = request.output;
+    json["output"] = saved.path;
+    json["fell_back"] = saved.fell_back;
     json["interrupted"] = outcome.interrupted;
     json["build_seconds"] = costs.build_seconds;
     json["compile_seconds"] = costs.compile_seconds;
-    json["device_seconds"] = device_seconds;
-    for (const PassTime& pass : passes) {
-        json["pass_seconds"][pass.pass] = pass.seconds;
-    }
     json["bytes"] = costs.bytes;
     json["features"] = feature_names(features);
     json["samples_per_second"] = static_cast<double>(totals.samples + totals.nonfinite) / seconds;
@@ -76,208 +71,110 @@ nlohmann::ordered_json picture_json(const RenderRequest& request, const RenderOu
     return json;
 }
 
-}  // namespace
-
-namespace {
-
-/// One picture on its way: what is known of it before, and what becomes of it.
-class Work {
+/// Seconds of the device, in all and by pass, since a renderer was as it was here.
+class DeviceSeconds {
 public:
-    Work(Session& session, const RenderRequest& request, const PictureAudience& audience)
-        : session_(session), request_(request), audience_(audience),
-          // Frames that go on from one another cannot be gone on with by another process, which has not seen them.
-          resumable_(request.backend == "oracle" || !chains_frames(request.settings)) {
-        outcome_.maker = this_program();
-        outcome_.device = session.renderer().device();
+    explicit DeviceSeconds(const Renderer& whole, const Renderer& passes)
+        : seconds_(whole.device_seconds()), passes_(passes.pass_times()) {}
+
+    void put(const Renderer& whole, const Renderer& passes, bool same_device, nlohmann::ordered_json& json) const {
+        json["device_seconds"] = whole.device_seconds() - seconds_;
+        const std::vector<PassTime> now = passes.pass_times();
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            json["pass_seconds"][now[i].pass] = now[i].seconds - (same_device ? passes_[i].seconds : 0);
+        }
     }
-
-    ProgressiveResult render(const std::atomic<bool>& cancel) {
-        const bool may_resume = resumable_ && audience_.files != nullptr;
-        if (may_resume && (!audience_.files->resume.empty() || !audience_.files->checkpoint.empty() ||
-                           std::filesystem::exists(part_path(request_.output)))) {
-            name_scene();
-            kept_ = find_kept_work(session_, request_, *audience_.files, render_metadata(request_, outcome_));
-        }
-        if (kept_.spp > 0 && !audience_.quiet) {
-            print_note("{}: going on from its {} samples per pixel\n", kept_.path, kept_.spp);
-        }
-        ProgressiveTarget target;
-        target.first = (request_.samples ? static_cast<std::uint32_t>(request_.samples->first) : 0) + kept_.spp;
-        target.spp = request_.spp > 0 ? request_.spp - kept_.spp : 0;
-        target.seconds = request_.seconds > 0 ? request_.seconds - kept_.seconds : 0;
-        target.relmse = request_.target_error;
-        if (kept_.look_at > 0) {
-            target.look_at = kept_.look_at;
-        }
-        const bool done = kept_.spp > 0 && ((request_.spp > 0 && target.spp == 0) ||
-                                            (request_.seconds > 0 && target.seconds <= 0));
-        return done ? ProgressiveResult{} : render_to(target, cancel);
-    }
-
-    /// The film with the samples that were kept.
-    Film whole_film() const {
-        Film film = session_.film();
-        if (kept_.spp > 0) {
-            merge_films(kept_.film, film);
-        }
-        return film;
-    }
-
-    /// How the render went, of which the film has come.
-    RenderOutcome outcome_of(const ProgressiveResult& result, const Film& film) const {
-        const FilmTotals totals = film_totals(film);
-        RenderOutcome outcome = outcome_;
-        outcome.spp = kept_.spp + result.spp;
-        outcome.samples = samples_to(outcome.spp);
-        outcome.interrupted = result.interrupted;
-        outcome.uneven = is_uneven(film);
-        outcome.look_at = result.look_at > 0 ? result.look_at : kept_.look_at;
-        outcome.seconds = kept_.seconds + result.seconds;
-        outcome.rays = totals.rays;
-        outcome.nonfinite = totals.nonfinite;
-        return outcome;
-    }
-
-    void settle(const ProgressiveResult& result, const Film& film) { outcome_ = outcome_of(result, film); }
-
-    /// Writes what is finished to the output, and what is not beside it. Returns where.
-    std::pair<std::string, LayeredImage> save(const Film& film) {
-        RenderRequest request = request_;
-        if (outcome_.interrupted && audience_.files != nullptr) {
-            request.output = unfinished_path();
-            request.sums = resumable_;
-        }
-        if (request.sums || !checkpoint().empty()) {
-            name_scene();
-        }
-        LayeredImage layers = save_film(film, request, outcome_);
-        if (!checkpoint().empty() && checkpoint() != request.output) {
-            write_checkpoint(film, outcome_);
-        }
-        if (!outcome_.interrupted && kept_.path == part_path(request_.output)) {
-            std::filesystem::remove(kept_.path);  // all that it held is in the picture
-        }
-        return {request.output, std::move(layers)};
-    }
-
-    const RenderOutcome& outcome() const { return outcome_; }
-    const KeptWork& kept() const { return kept_; }
-    bool resumable() const { return resumable_; }
 
 private:
-    std::string checkpoint() const {
-        return audience_.files != nullptr && resumable_ ? audience_.files->checkpoint : std::string();
-    }
-
-    SampleRanges samples_to(std::uint32_t spp) const {
-        const std::uint64_t first = request_.samples ? request_.samples->first : 0;
-        return resumable_ ? SampleRanges({first, first + spp}) : SampleRanges();
-    }
-
-    void name_scene() {
-        if (outcome_.fingerprint.empty()) {
-            outcome_.fingerprint = scene_fingerprint(session_.packed());
-        }
-    }
-
-    /// A checkpoint where one is kept, else beside the output; never over a file of more samples.
-    std::string unfinished_path() const {
-        if (!checkpoint().empty()) {
-            return checkpoint();
-        }
-        std::string path = part_path(request_.output);
-        for (int number = 2; samples_in(path) > outcome_.samples.count() && path != kept_.path; ++number) {
-            path = part_path(fmt::format("{}-{}.exr", request_.output.substr(0, request_.output.rfind('.')), number));
-        }
-        return path;
-    }
-
-    void write_checkpoint(const Film& film, const RenderOutcome& outcome) const {
-        RenderRequest request = request_;
-        request.output = checkpoint();
-        request.sums = true;
-        save_film(film, request, outcome);
-    }
-
-    ProgressiveResult render_to(const ProgressiveTarget& target, const std::atomic<bool>& cancel) {
-        ProgressLine line(request_.spp, audience_.label);
-        ProgressiveHooks hooks;
-        hooks.base = kept_.spp > 0 ? &kept_.film : nullptr;
-        hooks.progress = [&](const Progress& progress) { line.show(progress); };
-        std::optional<Checkpoints> checkpoints;
-        const Stopwatch watch;
-        if (!checkpoint().empty()) {
-            name_scene();
-            checkpoints.emplace(audience_.files->every, [&](const Film& film) {
-                ProgressiveResult so_far;
-                so_far.spp = samples_of_every_pixel(film) - kept_.spp;
-                so_far.seconds = watch.seconds();
-                so_far.interrupted = true;
-                write_checkpoint(film, outcome_of(so_far, film));
-            });
-        }
-        if (checkpoints || audience_.live != nullptr) {
-            hooks.film = [&](const Film& film) {
-                if (checkpoints) {
-                    checkpoints->offer(film);
-                }
-                if (audience_.live != nullptr) {
-                    audience_.live->show(request_.output, develop(film).color);
-                }
-            };
-        }
-        return render_progressively(session_, target, cancel, hooks);
-    }
-
-    Session& session_;
-    const RenderRequest& request_;
-    const PictureAudience& audience_;
-    bool resumable_;
-    KeptWork kept_;
-    RenderOutcome outcome_;
+    double seconds_;
+    std::vector<PassTime> passes_;
 };
 
 }  // namespace
 
+int picture_exit_code(const Picture& picture) {
+    return picture.lost          ? exit_no_device
+           : picture.interrupted ? interrupt_exit_code()
+           : picture.fell_back   ? exit_bad_input
+                                 : exit_done;
+}
+
 Picture render_picture(Session& session, const RenderRequest& request, const std::atomic<bool>& cancel,
-                       const PictureAudience& audience) {
-    const Renderer& renderer = session.renderer();
-    const double device_seconds = renderer.device_seconds();
-    const std::vector<PassTime> passes_before = renderer.pass_times();
-    Work work(session, request, audience);
-    const ProgressiveResult result = work.render(cancel);
-    const Film film = work.whole_film();
-    work.settle(result, film);
-    const FilmTotals totals = film_totals(film);
+                       const PictureAudience& audience, const WorkFiles& files, LossGuard& guard,
+                       const std::function<void()>& begin) {
+    PictureWork work(session, request, files);
+    work.find_kept();
+    if (work.kept().spp > 0 && !audience.quiet) {
+        print_note("{}: going on from its {} samples per pixel\n", work.kept().path, work.kept().spp);
+    }
+    const std::optional<ProgressiveTarget> target = work.target();
+    LastingPicture lasting(session, guard, cancel, begin, target ? target->first : 0);
+    const bool can_be_lost = request.backend == "vulkan";
+    Renderer& renderer = can_be_lost ? lasting : session.renderer();
+    const DeviceSeconds device_seconds(renderer, session.renderer());
+    const int losses_before = guard.losses();
     Picture picture;
+    ProgressiveResult result;
+    Film film;
+    try {
+        ProgressLine line(request.spp, audience.label);
+        ProgressiveHooks hooks;
+        hooks.base = work.kept().spp > 0 ? &work.kept().film : nullptr;
+        hooks.progress = [&](const Progress& progress) {
+            line.show(progress);
+            result.seconds = progress.seconds;
+        };
+        const std::function<void(const Film&)> checkpoint = work.checkpoints();
+        if (checkpoint || audience.live != nullptr) {
+            hooks.film = [&](const Film& grown) {
+                if (checkpoint) {
+                    checkpoint(grown);
+                }
+                if (audience.live != nullptr) {
+                    audience.live->show(request.output, develop(grown).color, cancel);
+                }
+            };
+        }
+        if (target) {
+            result = can_be_lost ? render_progressively(lasting, *target, cancel, hooks)
+                                 : render_progressively(session, *target, cancel, hooks);
+        }
+        film = work.whole(renderer.film());
+    } catch (const DeviceLost& error) {
+        film = work.whole(lasting.kept());
+        result.spp = lasting.kept_samples();
+        result.interrupted = picture.lost = true;
+        report_error(fmt::format("{}: {}; {} samples per pixel are saved, {} are lost", request.output, error.what(),
+                                 work.kept().spp + lasting.kept_samples(), lasting.lost_samples()));
+    }
+    const RenderOutcome outcome = work.outcome_of(result, film, renderer.device());
     picture.interrupted = result.interrupted;
+    const FilmTotals totals = film_totals(film);
     if (totals.samples + totals.nonfinite == 0) {
-        report_error(fmt::format("{}: interrupted before the first sample; nothing to save", request.output));
+        report_error(fmt::format("{}: {} before the first sample; nothing to save", request.output,
+                                 picture.lost ? "the device was lost" : "interrupted"));
         return picture;
     }
-    const auto [path, layers] = work.save(film);
+    const SavedPicture saved = work.save(film, outcome);
     if (audience.live != nullptr) {
-        audience.live->show(request.output, layers.color);
+        audience.live->finish(request.output, saved.layers.color, last_show_seconds(result));
     }
     picture.saved = true;
+    picture.fell_back = saved.fell_back;
     if (totals.nonfinite > 0) {
-        report_warning(fmt::format("{}: {} of {} samples were dropped: they were not finite, or negative", path,
+        report_warning(fmt::format("{}: {} of {} samples were dropped: they were not finite, or negative", saved.path,
                                    totals.nonfinite, totals.samples + totals.nonfinite));
     }
-    std::vector<PassTime> passes = renderer.pass_times();
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        passes[i].seconds -= passes_before[i].seconds;
-    }
-    picture.json = picture_json(request, work.outcome(), renderer, totals, estimated_relmse(film),
-                           session.packed().features, renderer.device_seconds() - device_seconds, passes);
-    picture.json["output"] = path;
+    picture.json = json_of(request, outcome, saved, renderer, film, session.packed().features);
     picture.json["kept_spp"] = work.kept().spp;
+    device_seconds.put(renderer, session.renderer(), guard.losses() == losses_before, picture.json);
+    if (can_be_lost) {
+        picture.json["device_losses"] = guard.losses() - losses_before;
+    }
     if (!audience.quiet) {
-        print_note("{}: {}x{}, {} spp in {:.2f} s on {}{}\n", path, film.width, film.height, work.outcome().spp,
-                   work.outcome().seconds, work.outcome().device,
-                   !result.interrupted    ? ""
-                   : work.resumable() ? ", interrupted; the same command goes on from it"
-                                          : ", interrupted");
+        print_note("{}: {}x{}, {} spp in {:.2f} s on {}{}{}\n", saved.path, film.width, film.height, outcome.spp,
+                   outcome.seconds, outcome.device, outcome.interrupted ? ", interrupted" : "",
+                   outcome.interrupted && work.resumable() ? "; the same command goes on from it" : "");
     }
     return picture;
 }

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "commands/arguments/arguments.h"
+#include "commands/arguments/device_loss.h"
 #include "commands/command.h"
 #include "error.h"
 #include "image/image_file.h"
@@ -15,9 +17,11 @@
 #include "session/open_session.h"
 #include "settings/names.h"
 #include "commands/render/picture.h"
+#include "commands/render/save_picture.h"
 #include "commands/render/sequence.h"
 #include "console/report.h"
 #include "pose/pose.h"
+#include "session/input_files.h"
 #include "session/scene_setup.h"
 
 namespace diptych::core::app {
@@ -41,7 +45,8 @@ for the frame number; without it the number comes before the extension. Frame i 
 restir, all frames have the seed --seed, and each frame reuses the previous one. The metadata of each file hold a
 command that renders this frame alone.
 EXR holds linear colour, standard error, albedo, normal and depth. Its attribute diptych:command holds the command
-that repeats the render. PNG is tone mapped; HDR is linear. Ctrl-C saves the samples so far and exits with code 130.
+that repeats the render. PNG is tone mapped; HDR is linear. Ctrl-C saves the samples so far and exits with code 130;
+SIGTERM, SIGHUP and SIGXCPU do so with 143, 129 and 152.
 An interrupted render leaves picture.part.exr beside its output, and the same command goes on from it, to the same
 bits. --samples renders a part of the samples, anywhere; 'diptych merge' puts parts together. A sequence skips frames
 that are finished.)";
@@ -66,6 +71,7 @@ struct RenderOptions {
     std::uint32_t sample_count = 0;
     std::uint32_t first_frame = 0;
     std::string live;  // HOST:PORT
+    std::string on_device_lost = "stop";
     bool json = false;
 };
 
@@ -107,8 +113,20 @@ void check_parts(RenderOptions& options) {
     }
 }
 
+std::vector<std::filesystem::path> written_files(const RenderRequest& request, const WorkFiles& files) {
+    std::vector<std::filesystem::path> paths;
+    for (std::uint32_t frame = 0; frame < std::max(request.frames, 1U); ++frame) {
+        paths.emplace_back(frame_path(request.output, frame, request.frames));
+    }
+    if (!files.checkpoint.empty()) {
+        paths.emplace_back(files.checkpoint);
+    }
+    return paths;
+}
+
 void check_render_options(RenderOptions& options) {
     RenderRequest& request = options.arguments.request;
+    device_loss_policy(options.on_device_lost, true, request);
     RenderSettings& settings = request.settings;
     resolve_names(options.arguments);
     resolve_oracle_mode(options.arguments);
@@ -153,7 +171,12 @@ void check_render_options(RenderOptions& options) {
         throw Error(fmt::format("--first-frame {}: the sequence has {} frames, from 0 on", options.first_frame,
                                 request.frames));
     }
-    check_writable(frame_path(request.output, options.first_frame, request.frames));
+    const std::string first_output = frame_path(request.output, options.first_frame, request.frames);
+    check_writable(first_output);
+    if (!options.files.fallback_folder.empty()) {
+        check_fallback(options.files.fallback_folder, first_output);
+    }
+    refuse_inputs(written_files(request, options.files), request);
     if (!options.files.checkpoint.empty()) {
         check_writable(options.files.checkpoint);
     }
@@ -182,12 +205,17 @@ int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) 
     }
     Session session = open_session(scene, request);
     InterruptGuard interrupt;
-    if (request.warm_up > 0) {
-        session.render(0, request.warm_up, interrupt.requested());
-        session.next_picture();
-    }
-    const Picture picture = render_picture(session, request, interrupt.requested(),
-                                           {.label = "", .quiet = options.json, .live = live, .files = &options.files});
+    LossGuard guard(device_loss_policy(options.on_device_lost, true, request));
+    const auto begin = [&] {
+        if (request.warm_up > 0) {
+            session.render(0, request.warm_up, interrupt.requested());
+            session.next_picture();
+        }
+    };
+    guard.run(session, interrupt.requested(), begin);
+    const Picture picture =
+        render_picture(session, request, interrupt.requested(), {.label = "", .quiet = options.json, .live = live},
+                       options.files, guard, begin);
     if (options.json && picture.saved) {
         print_json(picture.json);
     }
@@ -200,8 +228,13 @@ int run_render(RenderOptions options) {
     const Scene scene = prepare_scene(options.arguments);
     if (options.arguments.request.frames > 0) {
         report_clips(scene, options.arguments.request);
-        return render_sequence(scene, options.arguments.request, options.first_frame, options.files, options.json,
-                               live.get());
+        const RenderRequest& request = options.arguments.request;
+        return render_sequence(scene, request,
+                               {.first_frame = options.first_frame,
+                                .files = options.files,
+                                .on_device_lost = device_loss_policy(options.on_device_lost, true, request),
+                                .json = options.json,
+                                .live = live.get()});
     }
     return run_still(options, scene, live.get());
 }
@@ -281,6 +314,11 @@ void add_render(CLI::App& app, Run& run) {
     command->add_option(
         "--live", options->live,
         "HOST:PORT of a running tev viewer to show the progress in; tev's default is 127.0.0.1:14158");
+    command
+        ->add_option("--fallback-dir", options->files.fallback_folder,
+                     "Folder for a picture that cannot be written to -o, as when the disk is full; exit code 2")
+        ->type_name("DIR");
+    add_device_loss_option(*command, options->on_device_lost, true);
     command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(render_examples);
     command->callback([options, &run] { run = [options] { return run_render(*options); }; });

@@ -86,24 +86,24 @@ bool is_finished(const RenderRequest& frame) {
 
 }  // namespace
 
-int render_sequence(const Scene& scene, const RenderRequest& request, std::uint32_t first_frame, const WorkFiles& files,
-                    bool json, LiveView* live) {
+int render_sequence(const Scene& scene, const RenderRequest& request, const SequenceOptions& options) {
     const FrameMoments moments(scene, request);
     Session session = open_played(scene, request);
     const bool chained = session.chained();
+    const std::uint32_t first = options.first_frame;
     std::vector<bool> finished(request.frames);
-    for (std::uint32_t frame = first_frame; frame < request.frames; ++frame) {
+    for (std::uint32_t frame = first; frame < request.frames; ++frame) {
         finished[frame] =
-            !files.overwrite && is_finished(frame_request(request, request.warm_up + frame, chained, first_frame));
+            !options.files.overwrite && is_finished(frame_request(request, request.warm_up + frame, chained, first));
     }
-    const auto unfinished = std::find(finished.begin() + first_frame, finished.end(), false);
+    const auto unfinished = std::find(finished.begin() + first, finished.end(), false);
     const auto next = static_cast<std::uint32_t>(unfinished - finished.begin());
-    if (next > first_frame) {
+    if (next > first) {
         report_warning(fmt::format("{}: {} finished frames are left alone; --overwrite renders them again", request.output,
-                                   std::count(finished.begin() + first_frame, finished.end(), true)));
+                                   std::count(finished.begin() + first, finished.end(), true)));
     }
     // Warm-up frames stand for all that a chain looks back to. Without them it begins at its first frame again.
-    const std::uint32_t start = !chained || request.warm_up > 0 ? next : first_frame;
+    const std::uint32_t start = !chained || request.warm_up > 0 ? next : first;
     if (start < next && next < request.frames) {
         report_warning(fmt::format("frames {} to {} are rendered again, because restir goes on from them; --warm-up "
                                    "begins that many frames earlier instead",
@@ -111,35 +111,56 @@ int render_sequence(const Scene& scene, const RenderRequest& request, std::uint3
     }
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     InterruptGuard interrupt;
-    bool interrupted = false;
-    for (std::uint32_t i = start; i < request.warm_up + request.frames && next < request.frames && !interrupted; ++i) {
+    LossGuard guard(options.on_device_lost);
+    const auto show = [&](std::uint32_t frame) {
+        const std::uint32_t seed = frame_request(request, frame, chained, start).settings.seed;
+        session.show(moments.at(frame), chained && frame > start ? std::nullopt : std::optional(seed));
+    };
+    // A session that was renewed has no history: the frames that led to this one are rendered anew.
+    const auto begin_anew = [&](std::uint32_t frame) {
+        for (std::uint32_t i = chained ? start : frame; i < frame && !interrupt.requested(); ++i) {
+            show(i);
+            session.render(0, request.spp, interrupt.requested());
+        }
+        show(frame);
+    };
+    int exit_code = exit_done;
+    const std::uint32_t end = next < request.frames ? request.warm_up + request.frames : start;
+    for (std::uint32_t i = start; i < end && (exit_code == exit_done || exit_code == exit_bad_input); ++i) {
         const RenderRequest frame = frame_request(request, i, chained, start);
-        const bool discarded = i < start + request.warm_up;
-        const bool kept = !discarded && !finished[frame.frame];
+        const bool kept = i >= start + request.warm_up && !finished[frame.frame];
         if (!kept && !chained) {
             continue;
         }
-        const bool goes_on = chained && i > start;
-        session.show(moments.at(i), goes_on ? std::nullopt : std::optional(frame.settings.seed));
+        bool renewed = false;
+        guard.run(
+            session, interrupt.requested(),
+            [&] {
+                renewed ? begin_anew(i) : show(i);
+                if (!kept) {
+                    session.render(0, request.spp, interrupt.requested());
+                }
+            },
+            [&] { renewed = true; });
         if (!kept) {
-            session.render(0, request.spp, interrupt.requested());
-            interrupted = interrupt.requested();
+            exit_code = interrupt.requested() ? interrupt_exit_code() : exit_code;
             continue;
         }
         const std::string label = fmt::format("frame {}/{}  ", frame.frame + 1, request.frames);
         Picture picture = render_picture(session, frame, interrupt.requested(),
-                                         {.label = label, .quiet = json, .live = live, .files = &files});
+                                         {.label = label, .quiet = options.json, .live = options.live}, options.files,
+                                         guard, [&] { begin_anew(i); });
         if (picture.saved) {
             picture.json["pack_seconds"] = session.pack_seconds();
             picture.json["move_seconds"] = session.move_seconds();
             list.push_back(std::move(picture.json));
         }
-        interrupted = picture.interrupted;
+        exit_code = exit_code == exit_done || picture_exit_code(picture) != exit_done ? picture_exit_code(picture) : exit_code;
     }
-    if (json) {
+    if (options.json) {
         print_json(list);
     }
-    return interrupted ? interrupt_exit_code() : exit_done;
+    return exit_code;
 }
 
 }  // namespace diptych::core::app

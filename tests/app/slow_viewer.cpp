@@ -1,0 +1,105 @@
+// A viewer on the network that reads slowly does not hold a render up.
+#include "catch.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "clock.h"
+#include "image/layered_image.h"
+#include "process.h"
+
+using namespace diptych::core;
+using namespace diptych::core::tests;
+
+namespace {
+
+/// Reads 4 kB twice a second of every connection.
+class SlowViewer {
+public:
+    SlowViewer() : listener_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
+        sockaddr_in address = {};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        auto* const generic = reinterpret_cast<sockaddr*>(&address);
+        const int small = 4096;
+        setsockopt(listener_, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+        if (bind(listener_, generic, size) != 0 || listen(listener_, 2) != 0 ||
+            getsockname(listener_, generic, &size) != 0) {
+            throw std::runtime_error("no socket on the loopback");
+        }
+        port_ = ntohs(address.sin_port);
+        thread_ = std::thread([this] { read_slowly(); });
+    }
+    SlowViewer(const SlowViewer&) = delete;
+    SlowViewer& operator=(const SlowViewer&) = delete;
+    ~SlowViewer() {
+        stop_ = true;
+        thread_.join();
+        close(listener_);
+    }
+
+    std::string endpoint() const { return "127.0.0.1:" + std::to_string(port_); }
+
+private:
+    void read_slowly() {
+        std::vector<int> connections;
+        std::vector<char> bytes(4096);
+        while (!stop_) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(500));
+            const int connection = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+            if (connection >= 0) {
+                connections.push_back(connection);
+            }
+            for (const int each : connections) {
+                [[maybe_unused]] const ssize_t read = recv(each, bytes.data(), bytes.size(), MSG_DONTWAIT);
+            }
+        }
+        for (const int each : connections) {
+            close(each);
+        }
+    }
+
+    int listener_;
+    int port_ = 0;
+    std::atomic<bool> stop_ = false;
+    std::thread thread_;
+};
+
+}  // namespace
+
+TEST_CASE("a viewer that reads 4 kB in half a second holds up neither --time nor Ctrl-C", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    SlowViewer viewer;
+    const auto shown = [&](const std::string& output, const std::vector<std::string>& more) {
+        return with({"render", scene, "-o", folder.file(output), "--size", "800x600", "--max-depth", "1", "--live",
+                     viewer.endpoint()},
+                    more);
+    };
+    Process interrupted(folder, shown("interrupted.exr", {"--spp", "100000000"}));
+    const Stopwatch timed;
+    const ProcessResult result = run_diptych(folder, shown("timed.exr", {"--time", "1"}));
+    const double seconds = timed.seconds();
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(contains(result.err, "has not taken the whole picture"));
+    CHECK(seconds < 1 + 5);  // on a busy machine; the whole picture would take twelve minutes
+    REQUIRE(interrupted.wait_for_error_text("spp", 60));
+    const Stopwatch stopping;
+    interrupted.send(SIGINT);
+    CHECK(interrupted.finish().exit_code == 128 + SIGINT);
+    CHECK(stopping.seconds() < 5);
+    for (const char* name : {"timed.exr", "interrupted.exr"}) {
+        CHECK(read_image(folder.file(name)).color.width == 800);
+    }
+}
