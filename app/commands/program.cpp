@@ -5,6 +5,7 @@
 #include <new>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 #include "session/make_renderer.h"
 #include "commands/command.h"
@@ -79,6 +80,11 @@ int run_and_report_errors(int argc, char** argv) {
         return exit_bad_input;
     } catch (const std::bad_alloc&) {
         report_error("not enough memory");
+        return exit_bad_input;
+    } catch (const std::system_error& error) {
+        const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
+        report_error(no_thread ? "no thread can be started: the limit of processes (ulimit -u) or of the container is reached"
+                               : fmt::format("internal error: {}", error.what()));
         return exit_bad_input;
     } catch (const std::exception& error) {
         report_error(fmt::format("internal error: {}", error.what()));

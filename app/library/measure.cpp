@@ -88,7 +88,7 @@ Verdict verify(const Scene& scene, const VerifyOptions& options) {
                                     options.progress(begun++, 2 * options.runs);
                                 }
                             });
-        if (!suite) {
+        if (!suite || suite->interrupted) {
             throw Interrupted("verify: stopped before all runs were done; there is no verdict");
         }
         return verdict_of(suite->pairs.front(), suite->grid);

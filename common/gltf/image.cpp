@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 #include <thread>
 
 #include "error.h"
@@ -140,8 +141,11 @@ DecodedImages decode_images(const Document& document, const std::vector<int>& wa
     const std::size_t workers = std::min<std::size_t>(wanted.size(), std::max(1U, std::thread::hardware_concurrency()));
     {
         std::vector<std::jthread> threads;
-        for (std::size_t i = 1; i < workers; ++i) {
-            threads.emplace_back(work);
+        try {
+            for (std::size_t i = 1; i < workers; ++i) {
+                threads.emplace_back(work);
+            }
+        } catch (const std::system_error&) {  // no more threads here: those that run, and this one, do all the work
         }
         work();
     }

@@ -25,6 +25,7 @@ struct Entry {
     std::vector<double> frame_seconds;
     std::optional<TraversalBench> traversal;
     std::vector<std::vector<double>> pass_seconds;  // of each pass, its frames
+    FilmTotals before;  // of the frames that count
     double rays_per_frame = 0;
     std::uint32_t next_frame = 0;
 };
@@ -41,8 +42,14 @@ void measure(Entry& entry, std::uint32_t spp, const std::atomic<bool>& cancel) {
     }
 }
 
-double rays_so_far(const Entry& entry) {
-    return static_cast<double>(film_totals(entry.session.film()).rays);
+/// A frame's rays, by those of the samples since `before`: a frame that was cut short counts by its samples.
+double rays_per_frame(const Entry& entry, std::uint32_t spp) {
+    const RenderSettings& settings = entry.session.settings();
+    const FilmTotals now = film_totals(entry.session.film());
+    const double samples = static_cast<double>(now.samples + now.nonfinite) -
+                           static_cast<double>(entry.before.samples + entry.before.nonfinite);
+    const double rays = static_cast<double>(now.rays - entry.before.rays);
+    return rays / samples * settings.width * settings.height * spp;
 }
 
 void warm_up(Entry& entry, std::uint32_t spp, const std::atomic<bool>& cancel) {
@@ -111,22 +118,23 @@ public:
             if (cancel_) {
                 return false;
             }
-            entry.rays_per_frame = -rays_so_far(entry);
+            entry.before = film_totals(entry.session.film());
         }
-        for (int frame = 0; frame < settings_.frames; ++frame) {
-            for (Entry& entry : entries_) {
-                begin_(fmt::format("{}, frame {}", name_of(entry.integrator), frame + 1));
-                measure(entry, settings_.spp, cancel_);
-                if (cancel_) {
-                    return false;
-                }
-            }
+        while (frames_ < settings_.frames && render_round()) {
+            ++frames_;
         }
         for (Entry& entry : entries_) {
-            entry.rays_per_frame = (entry.rays_per_frame + rays_so_far(entry)) / settings_.frames;
+            entry.frame_seconds.resize(static_cast<std::size_t>(frames_));
+            for (std::vector<double>& seconds : entry.pass_seconds) {
+                seconds.resize(static_cast<std::size_t>(frames_));
+            }
+            entry.rays_per_frame = frames_ > 0 ? rays_per_frame(entry, settings_.spp) : 0;
         }
-        return true;
+        return frames_ == settings_.frames;
     }
+
+    /// Frames that every integrator has rendered.
+    int frames() const { return frames_; }
 
     bool trace_bare() {
         for (Entry& entry : entries_) {
@@ -150,7 +158,7 @@ public:
             }
         }
         const Renderer& renderer = entries_.front().session.renderer();
-        BenchResult result{renderer.backend(), renderer.device(), {}};
+        BenchResult result{renderer.backend(), renderer.device(), frames_, {}};
         for (const Entry& entry : entries_) {
             result.integrators.push_back(evaluate(entry, settings_.spp, brdf_seconds));
         }
@@ -158,9 +166,21 @@ public:
     }
 
 private:
+    bool render_round() {
+        for (Entry& entry : entries_) {
+            begin_(fmt::format("{}, frame {}", name_of(entry.integrator), frames_ + 1));
+            measure(entry, settings_.spp, cancel_);
+            if (cancel_) {
+                return false;
+            }
+        }
+        return true;
+    }
+
     const BenchSettings& settings_;
     const std::atomic<bool>& cancel_;
     const StepHook& begin_;
+    int frames_ = 0;
     std::vector<Entry> entries_;
 };
 
@@ -180,7 +200,7 @@ std::optional<BenchResult> bench_integrators(const BenchSettings& settings, cons
                                              const std::atomic<bool>& cancel, const StepHook& begin) {
     Bench bench(settings, cancel, begin);
     const bool whole = bench.build(scene, request, open) && bench.render_frames() && bench.trace_bare();
-    return whole ? std::optional(bench.result()) : std::nullopt;
+    return whole || bench.frames() > 0 ? std::optional(bench.result()) : std::nullopt;
 }
 
 }  // namespace diptych::core

@@ -38,6 +38,7 @@ struct IntegratorBench {
 struct BenchResult {
     std::string backend;
     std::string device;
+    int frames = 0;  // of each integrator; fewer than asked for where `cancel` came in between
     std::vector<IntegratorBench> integrators;  // as the settings list them
 };
 
@@ -46,7 +47,8 @@ int bench_steps(const BenchSettings& settings);
 
 /// Medians over the frames. Each integrator has a session of its own, and they take turns, so that all ratios come from
 /// the same conditions; restir's frames follow one another. The integrators are the settings', of which there is at
-/// least one, not the request's. Nothing where `cancel` came before the end. Throws NoDevice and Error.
+/// least one, not the request's. Nothing where `cancel` came before every integrator had a frame. Throws NoDevice and
+/// Error.
 std::optional<BenchResult> bench_integrators(const BenchSettings& settings, const Scene& scene,
                                              const RenderRequest& request, const OpenSession& open,
                                              const std::atomic<bool>& cancel, const StepHook& begin);

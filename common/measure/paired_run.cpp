@@ -22,7 +22,7 @@ std::vector<shared::PathQuery> list_paths(std::uint64_t first, std::size_t count
 
 }  // namespace
 
-PairedRun compare_all_paths(Session& a, Session& b, std::uint32_t spp) {
+PairedRun compare_all_paths(Session& a, Session& b, std::uint32_t spp, const std::atomic<bool>& cancel) {
     const RenderSettings& settings = a.settings();
     PairedRun run;
     run.integrator = settings.integrator;
@@ -32,7 +32,7 @@ PairedRun compare_all_paths(Session& a, Session& b, std::uint32_t spp) {
     const auto width = static_cast<std::uint32_t>(settings.width);
     const std::uint64_t all =
         static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height) * spp;
-    for (std::uint64_t first = 0; first < all; first += paths_at_a_time) {
+    for (std::uint64_t first = 0; first < all && !cancel; first += paths_at_a_time) {
         const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(paths_at_a_time, all - first));
         const std::vector<shared::PathQuery> queries = list_paths(first, count, width, spp);
         const std::vector<bool> differs =

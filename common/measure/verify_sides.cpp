@@ -47,6 +47,8 @@ std::uint32_t VerifySide::first_seed(std::optional<std::uint32_t> frame) const {
 }
 
 bool VerifySide::extend(std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook) {
+    const std::vector<std::vector<RunMeans>> runs_before = runs_;
+    const std::uint64_t nonfinite_before = nonfinite_;
     if (session_->chained()) {
         seeds_.seed(side_, 0, (spp_ + samples - 1) / frame_spp_);
         for (std::uint32_t run = 0; run < run_count_ && !cancel; ++run) {
@@ -63,8 +65,13 @@ bool VerifySide::extend(std::uint32_t samples, const std::atomic<bool>& cancel, 
             render_runs(i, samples, cancel, hook);
         }
     }
+    if (cancel) {
+        runs_ = runs_before;
+        nonfinite_ = nonfinite_before;
+        return false;
+    }
     spp_ += samples;
-    return !cancel;
+    return true;
 }
 
 void VerifySide::render_runs(std::size_t frame, std::uint32_t samples, const std::atomic<bool>& cancel,

@@ -35,7 +35,7 @@ public:
                const std::vector<std::uint32_t>& frames, const SeedPlan& seeds, std::uint32_t side,
                std::uint32_t sample_count);
 
-    /// Adds so many samples a pixel to every run of every frame; false, and of no use any more, where `cancel` came in
+    /// Adds so many samples a pixel to every run of every frame; false, and as it was before, where `cancel` came in
     /// between. A run of restir's plays chains anew from frame 0, of frame_spp samples a frame and seeds of their own,
     /// until the frames judged have their samples. Throws Error before that where there are not enough seeds.
     bool extend(std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <future>
+#include <system_error>
 
 #include "clock.h"
 
@@ -29,6 +31,15 @@ struct Stage {
     VerdictLimits limits;
     int number = 1;
 };
+
+/// On a thread of its own; where none can be started, when its result is asked for.
+std::future<bool> in_parallel(const std::function<bool()>& work) {
+    try {
+        return std::async(std::launch::async, work);
+    } catch (const std::system_error&) {
+        return std::async(std::launch::deferred, work);
+    }
+}
 
 /// A side of several pairs is rendered once. Candidates and references are apart, even where they bear one name.
 struct Sides {
@@ -72,7 +83,7 @@ struct Sides {
         return static_cast<std::size_t>(at - wanted.begin());
     }
 
-    /// A graphics device renders its sides while the processor renders the others.
+    /// A graphics device renders its sides while the processor renders the others. False where `cancel` came in between.
     bool extend(std::uint32_t samples, std::uint32_t reference_samples, const std::atomic<bool>& cancel,
                 const RunHook& hook) {
         const auto extend_those = [&](bool on_vulkan) {
@@ -84,7 +95,7 @@ struct Sides {
             }
             return true;
         };
-        std::future<bool> on_vulkan = std::async(std::launch::async, extend_those, true);
+        std::future<bool> on_vulkan = in_parallel([&] { return extend_those(true); });
         const bool others = extend_those(false);
         return on_vulkan.get() && others;
     }
@@ -140,16 +151,36 @@ bool render_stage(const Stage& stage, Sides& sides, const VerifySettings& settin
     return true;
 }
 
-std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const VerifySubject& subject,
-                                                 const VerifySettings& settings, const std::atomic<bool>& cancel,
-                                                 const RunHook& hook) {
-    Sides sides(stage, subject, settings);
-    if (!render_stage(stage, sides, settings, cancel, hook)) {
-        return std::nullopt;
+struct StageResult {
+    std::vector<PairResult> pairs;
+    std::vector<std::size_t> places;  // of them, among the stage's pairs
+    bool interrupted = false;         // then those pairs are missing of which a side has no samples
+};
+
+/// Leaves the pairs of which both sides have samples.
+void keep_rendered(Stage& stage, Sides& sides, std::vector<std::size_t>& places) {
+    std::vector<PairName> pairs;
+    std::vector<std::pair<std::size_t, std::size_t>> of_pair;
+    for (std::size_t i = 0; i < stage.pairs.size(); ++i) {
+        const auto [a, b] = sides.of_pair[i];
+        if (sides.all[a].spp() > 0 && sides.all[b].spp() > 0) {
+            pairs.push_back(stage.pairs[i]);
+            of_pair.emplace_back(a, b);
+            places.push_back(i);
+        }
     }
+    stage.pairs = std::move(pairs);
+    sides.of_pair = std::move(of_pair);
+}
+
+StageResult run_stage(Stage stage, const VerifySubject& subject, const VerifySettings& settings,
+                      const std::atomic<bool>& cancel, const RunHook& hook) {
+    Sides sides(stage, subject, settings);
+    StageResult stage_result;
+    stage_result.interrupted = !render_stage(stage, sides, settings, cancel, hook);
+    keep_rendered(stage, sides, stage_result.places);
     const std::vector<TileComparison> comparisons = compare(stage.pairs, sides, settings.common_seeds);
     const std::vector<PairVerdict> verdicts = judge(comparisons, stage.limits);
-    std::vector<PairResult> results;
     for (std::size_t i = 0; i < stage.pairs.size(); ++i) {
         const auto [a, b] = sides.of_pair[i];
         PairResult result;
@@ -170,12 +201,13 @@ std::optional<std::vector<PairResult>> run_stage(const Stage& stage, const Verif
             result.verdict.verdict = Verdict::fail;
             result.verdict.reason = fmt::format("{} samples were not finite, or negative, and dropped", nonfinite);
         }
-        results.push_back(result);
+        stage_result.pairs.push_back(result);
     }
-    return results;
+    return stage_result;
 }
 
-/// The pairs that failed get another chance, with seeds of their own; what they say then stands.
+/// The pairs that failed get another chance, with seeds of their own; what they say then stands. Without it there is no
+/// verdict on them. False where `cancel` came in between.
 bool run_second_stage(Stage stage, const VerifySubject& subject, const VerifySettings& settings,
                       const std::atomic<bool>& cancel, const RunHook& hook, std::vector<PairResult>& results) {
     std::vector<std::size_t> failed;
@@ -184,6 +216,8 @@ bool run_second_stage(Stage stage, const VerifySubject& subject, const VerifySet
         if (results[i].verdict.verdict == Verdict::fail) {
             failed.push_back(i);
             stage.pairs.push_back(results[i].names);
+            results[i].verdict.verdict = Verdict::inconclusive;
+            results[i].verdict.reason = "interrupted before it was tested again";
         }
     }
     if (failed.empty()) {
@@ -195,11 +229,11 @@ bool run_second_stage(Stage stage, const VerifySubject& subject, const VerifySet
     stage.reference_spp = second_stage_spp * results[failed.front()].spp_b;
     stage.seconds = 0;
     stage.limits.alpha *= second_stage_alpha;
-    const std::optional<std::vector<PairResult>> again = run_stage(stage, subject, settings, cancel, hook);
-    for (std::size_t i = 0; again && i < failed.size(); ++i) {
-        results[failed[i]] = (*again)[i];
+    const StageResult again = run_stage(stage, subject, settings, cancel, hook);
+    for (std::size_t i = 0; i < again.pairs.size(); ++i) {
+        results[failed[again.places[i]]] = again.pairs[i];
     }
-    return again.has_value();
+    return !again.interrupted;
 }
 
 }  // namespace
@@ -217,12 +251,14 @@ std::optional<SuiteResult> run_suite(const VerifySettings& settings, const Verif
     stage.limits.alpha = settings.alpha;
     stage.limits.max_half_width = settings.max_half_width;
     stage.limits.max_tile_half_width = settings.max_tile_half_width;
-    std::optional<std::vector<PairResult>> results = run_stage(stage, subject, settings, cancel, hook);
-    if (!results || (settings.fresh_seeds && !run_second_stage(stage, subject, settings, cancel, hook, *results))) {
+    StageResult first = run_stage(stage, subject, settings, cancel, hook);
+    if (first.pairs.empty()) {
         return std::nullopt;
     }
     SuiteResult suite;
-    suite.pairs = std::move(*results);
+    suite.interrupted = first.interrupted || (settings.fresh_seeds && !run_second_stage(stage, subject, settings, cancel,
+                                                                                       hook, first.pairs));
+    suite.pairs = std::move(first.pairs);
     suite.grid = tile_grid(subject.request.settings.width, subject.request.settings.height, settings.tile);
     suite.seed = seed;
     suite.seconds = now_seconds() - start;

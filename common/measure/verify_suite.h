@@ -28,9 +28,10 @@ struct SuiteResult {
     TileGrid grid;
     std::uint32_t seed = 0;
     double seconds = 0;
+    bool interrupted = false;  // then only the pairs are here whose sides were rendered
 };
 
-/// Nothing where `cancel` came before the end. With fresh seeds, pairs that fail are rendered again with other seeds
+/// Nothing where `cancel` came before a pair was rendered; else the pairs that were. With fresh seeds, pairs that fail are rendered again with other seeds
 /// and four times the samples, and fail only below a tenth of alpha. With a time limit, the samples of all runs are
 /// doubled until every pair has power or the time is used up; when to stop depends on the noise alone, not on the
 /// difference, so it does not bend the p-values.

@@ -327,3 +327,19 @@ TEST_CASE("converge draws a scene whose name is no plain text", "[app]") {
     CHECK(file_text(folder.file("out/error-time.svg")).find("a&lt;b&gt;&amp;&quot;c&quot;.glb") != std::string::npos);
     CHECK(html_fault(file_text(folder.file("out/index.html"))) == "");
 }
+
+TEST_CASE("two converges in one folder do not measure beside each other", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const std::vector<std::string> arguments = {"converge", scene, "--methods", "cpu:path", "--size", "8", "--runs",
+                                                "4096", "--spp-max", "4096", "-o", folder.file("out")};
+    Process first(folder, arguments);
+    for (int wait = 0; wait < 3000 && !std::filesystem::exists(folder.file("out/results.jsonl")); ++wait) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    check_refusal(run_diptych(folder, arguments), 2, {folder.file("out"), "another converge"});
+    first.send(SIGTERM);
+    CHECK(first.finish().exit_code == 128 + SIGTERM);
+    Process again(folder, arguments);  // the lock went with its process
+    CHECK_FALSE(again.wait_for_error_text("another converge", 0.5));
+}

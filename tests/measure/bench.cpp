@@ -53,13 +53,25 @@ TEST_CASE("The engine of bench knows no cost relative to brdf where brdf is not 
     CHECK_FALSE(counted.result->integrators.front().cost_relative_to_brdf.has_value());
 }
 
-TEST_CASE("The engine of bench stops at the step at which it is cancelled") {
+TEST_CASE("The engine of bench stops at the step at which it is cancelled, with the frames that all integrators have") {
     const BenchSettings settings{{Integrator::brdf, Integrator::path}, 1, 5};
-    // Building, warming up, first frame, last step.
-    for (const int step : {1, 2, 5, bench_steps(settings)}) {
+    const int warm = 4;
+    struct Case {
+        int step;
+        int frames;
+    };
+    for (const auto& [step, frames] : {Case{1, 0}, Case{warm + 2, 0}, Case{warm + 3, 1}, Case{bench_steps(settings), 5}}) {
         const Counted counted = bench(settings, step);
         INFO("cancelled at step " << step);
-        CHECK_FALSE(counted.result.has_value());
         CHECK(counted.steps == step);
+        REQUIRE(counted.result.has_value() == (frames > 0));
+        if (frames > 0) {
+            CHECK(counted.result->frames == frames);
+            REQUIRE(counted.result->integrators.size() == 2);
+            const IntegratorBench& brdf = counted.result->integrators[0];
+            CHECK(brdf.samples_per_second * brdf.milliseconds / 1000 == Approx(16 * 16));
+            CHECK(brdf.rays_per_second / brdf.samples_per_second >= 1);
+            CHECK(brdf.rays_per_second / brdf.samples_per_second < 20);
+        }
     }
 }

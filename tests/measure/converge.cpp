@@ -2,9 +2,13 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
 #include <set>
 
 #include "../common/generate_fixture.h"
+#include "error.h"
 #include "fixture.h"
 #include "measure/converge/measurement.h"
 
@@ -58,6 +62,15 @@ Measured measure(const std::filesystem::path& folder, const ConvergeSubject& sub
     measured.summary = measurement.summary();
     measured.rows = state.rows();
     return measured;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
 }
 
 /// Method, run, samples and errors, as the bits are, in any order.
@@ -155,4 +168,39 @@ TEST_CASE("What a folder of converge's holds is read back as it was written") {
     CHECK(state.rows().front().mse == 0.1);
     CHECK(state.rows().front().rays == 1ULL << 40U);
     CHECK(state.runs("cpu:path") == 1);
+}
+
+TEST_CASE("A file of converge's that is damaged is named, and nothing is measured with it") {
+    const TemporaryFolder folder;
+    const Scene scene = cornell();
+    const ConvergeSubject subject = subject_of(scene);
+    REQUIRE(measure(folder.path(), subject).whole);
+    const auto refused = [&](const std::string& file, const std::function<void(std::string&)>& damage) {
+        const std::filesystem::path path = folder.path() / file;
+        const std::string before = text_of(path);
+        std::string after = before;
+        damage(after);
+        write(path, after);
+        std::string said;
+        try {
+            measure(folder.path(), subject);
+        } catch (const Error& error) {
+            said = error.what();
+        }
+        INFO(said);
+        CHECK(said.find(path.string() + ": ") == 0);
+        CHECK(said.find("is damaged") != std::string::npos);
+        write(path, before);
+    };
+    refused("cpu-path.sums", [](std::string& bytes) { bytes[bytes.size() / 2] ^= 1; });
+    refused("cpu-path.sums", [](std::string& bytes) { bytes.resize(bytes.size() - 1); });
+    refused("cpu-path.sums", [](std::string& bytes) { bytes += '\0'; });
+    refused("cpu-brdf.sums", [](std::string& bytes) { bytes.clear(); });
+    refused("results.jsonl", [](std::string& lines) { lines.insert(lines.find('\n') + 1, "[1]\n"); });
+    refused("results.jsonl", [](std::string& lines) { lines.insert(lines.find('\n') + 1, "{\"kind\": \"run\"}\n"); });
+    refused("results.jsonl", [](std::string& lines) { lines.insert(lines.find('\n') + 1, "{\"kind\": \n"); });
+    CHECK(measure(folder.path(), subject).whole);
+    write(folder.path() / "reference.blocks", std::string(40, 'x'));
+    std::filesystem::remove(folder.path() / "reference.exr");
+    refused("reference.blocks", [](std::string&) {});
 }

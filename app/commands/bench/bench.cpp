@@ -87,7 +87,7 @@ nlohmann::ordered_json to_json(const IntegratorBench& bench) {
     return json;
 }
 
-nlohmann::ordered_json to_json(const BenchResult& result, const BenchOptions& options) {
+nlohmann::ordered_json to_json(const BenchResult& result, const BenchOptions& options, bool interrupted) {
     const RenderSettings& settings = options.arguments.request.settings;
     nlohmann::ordered_json json;
     json["scene"] = options.arguments.request.scene;
@@ -96,7 +96,8 @@ nlohmann::ordered_json to_json(const BenchResult& result, const BenchOptions& op
     json["width"] = settings.width;
     json["height"] = settings.height;
     json["spp"] = options.spp;
-    json["frames"] = options.frames;
+    json["frames"] = result.frames;
+    json["interrupted"] = interrupted;
     json["integrators"] = nlohmann::ordered_json::array();
     for (const IntegratorBench& bench : result.integrators) {
         json["integrators"].push_back(to_json(bench));
@@ -115,21 +116,23 @@ int run_bench(BenchOptions options) {
         options.arguments, std::any_of(settings.integrators.begin(), settings.integrators.end(), resamples));
     const Scene scene = prepare_scene(options.arguments);
     std::optional<BenchResult> result;
+    bool interrupted = false;
     {
         InterruptGuard interrupt;
         StepLine line(bench_steps(settings));
         result = bench_integrators(settings, scene, request, open_requested, interrupt.requested(),
                                    [&](const std::string& step) { line.begin(step); });
+        interrupted = interrupt.requested();
     }
-    if (!result) {
-        report_error(
-            fmt::format("{}: interrupted before all frames were measured; there are no figures", request.scene));
-        return interrupt_exit_code();
-    }
-    if (options.json) {
-        print_json(to_json(*result, options));
-    } else {
+    if (result && options.json) {
+        print_json(to_json(*result, options, interrupted));
+    } else if (result) {
         print_bench(*result, request.settings);
+    }
+    if (interrupted) {
+        report_error(fmt::format("{}: interrupted after {} of {} frames", request.scene, result ? result->frames : 0,
+                                 options.frames));
+        return interrupt_exit_code();
     }
     return exit_done;
 }

@@ -16,8 +16,10 @@
 #include "console/step_line.h"
 #include "image/atomic_file.h"
 #include "image/image_file.h"
+#include "image/picture_name.h"
 #include "measure/converge/measurement.h"
 #include "console/repeat_command.h"
+#include "session/input_files.h"
 #include "session/open_session.h"
 #include "session/scene_setup.h"
 
@@ -50,10 +52,34 @@ nlohmann::ordered_json write_report(const ConvergeOptions& options, const std::v
     return json;
 }
 
-/// As the options have it, and the folder claimed for it.
+/// The files of the folder that an input could be: pictures, and what a scene could name as a buffer or texture.
+std::vector<std::filesystem::path> written_files(const ConvergeOptions& options, const std::vector<Method>& methods) {
+    const std::filesystem::path folder = options.folder;
+    std::vector<std::filesystem::path> files{folder / "pictures/reference.png"};
+    if (!reference_is_file(options)) {
+        files.push_back(folder / "reference.exr");
+        files.push_back(folder / "reference.blocks");
+    }
+    for (const Method& method : methods) {
+        for (const char* ending : {".exr", ".png", "-error.png"}) {
+            files.push_back(folder / "pictures" / (file_stem(method.name) + ending));
+        }
+        files.push_back(folder / (file_stem(method.name) + ".sums"));
+    }
+    return files;
+}
+
+void refuse_to_write_over_inputs(const ConvergeOptions& options, const std::vector<Method>& methods) {
+    std::vector<std::filesystem::path> inputs = input_files(options.arguments.request);
+    if (reference_is_file(options)) {
+        inputs.push_back(picture_name(options.reference).file);
+    }
+    refuse_inputs(written_files(options, methods), inputs);
+}
+
 ConvergeSubject plan_subject(const ConvergeOptions& options, const Scene& scene) {
     ConvergeSubject subject{scene, plan_methods(options), {}, {}, open_requested};
-    claim_folder(options, plan_to_json(options, subject.methods));
+    refuse_to_write_over_inputs(options, subject.methods);
     if (reference_is_file(options)) {
         const RenderSettings& settings = options.arguments.request.settings;
         subject.given_reference = load_reference(options.reference, settings.width, settings.height);
@@ -77,6 +103,7 @@ int run_converge(ConvergeOptions options) {
     const Scene scene = prepare_scene(options.arguments);
     const double load_seconds = loading.seconds();
     const ConvergeSubject subject = plan_subject(options, scene);
+    const FileLock lock = claim_folder(options, plan_to_json(options, subject.methods));
     ConvergeState state(options.folder);
     if (!state.load_seconds()) {
         state.set_load_seconds(load_seconds);

@@ -223,8 +223,22 @@ nlohmann::ordered_json plan_to_json(const ConvergeOptions& options, const std::v
     return json;
 }
 
-void claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& plan) {
-    prepare_folder(options.folder);
+namespace {
+
+FileLock lock_folder(const std::string& folder) {
+    prepare_folder(folder);
+    FileLock lock(fs::path(folder) / ".lock");
+    if (!lock.held()) {
+        throw Error(fmt::format("{}: another converge measures into this folder; wait for its end, or give another -o",
+                                folder));
+    }
+    return lock;
+}
+
+}  // namespace
+
+FileLock claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& plan) {
+    FileLock lock = lock_folder(options.folder);
     const fs::path path = fs::path(options.folder) / "plan.json";
     if (!fs::exists(path)) {
         if (fs::exists(fs::path(options.folder) / "results.jsonl")) {
@@ -232,7 +246,7 @@ void claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& 
                 "{}: holds results.jsonl, but not the plan.json that they came from; give another -o", options.folder));
         }
         write_file_atomically(path, plan.dump(2) + "\n");
-        return;
+        return lock;
     }
     std::ifstream file(path);
     const nlohmann::ordered_json was = nlohmann::ordered_json::parse(file, nullptr, false);
@@ -243,6 +257,7 @@ void claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& 
         throw Error(fmt::format("{}: holds results of another plan ({}); give another -o, or remove it", options.folder,
                                 first_difference(was, plan)));
     }
+    return lock;
 }
 
 }  // namespace diptych::core::app

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands/arguments/arguments.h"
+#include "file_lock.h"
 #include "measure/converge/method.h"
 #include "measure/converge/reference.h"
 
@@ -38,8 +39,9 @@ bool reference_is_file(const ConvergeOptions& options);
 nlohmann::ordered_json plan_to_json(const ConvergeOptions& options, const std::vector<Method>& methods);
 
 /// Makes the folder, and plan.json in it; refuses a folder that holds another plan's results, naming the first
-/// difference. Throws Error.
-void claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& plan);
+/// difference, and one that another process measures into. The folder belongs to this process as long as it keeps the
+/// lock. Throws Error.
+[[nodiscard]] FileLock claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& plan);
 
 /// The picture that --reference names, of the given size with three channels. Throws Error.
 ReferencePicture load_reference(const std::string& path, int width, int height);

@@ -12,10 +12,12 @@
 #include "image/figures.h"
 #include "image/image_file.h"
 #include "measure/paired_run.h"
+#include "console/interrupt.h"
 #include "console/output.h"
 #include "console/repeat_command.h"
 #include "settings/names.h"
 #include "console/report.h"
+#include "session/input_files.h"
 #include "session/scene_setup.h"
 
 namespace diptych::core::app {
@@ -118,6 +120,10 @@ PairedVerdict worst_verdict(const std::vector<Figured>& runs) {
     return worst;
 }
 
+std::filesystem::path figure_path(const std::string& folder, Integrator integrator) {
+    return std::filesystem::path(folder) / fmt::format("paired-{}.png", name_of(integrator));
+}
+
 }  // namespace
 
 int run_paired(RenderArguments arguments, const PairArguments& pair, const PairedOptions& options) {
@@ -131,18 +137,29 @@ int run_paired(RenderArguments arguments, const PairArguments& pair, const Paire
     if (!options.folder.empty() && !std::filesystem::is_directory(options.folder)) {
         throw Error(fmt::format("{}: is not a folder", options.folder));
     }
+    if (!options.folder.empty()) {
+        std::vector<std::filesystem::path> figures;
+        for (const Integrator integrator : options.integrators) {
+            figures.push_back(figure_path(options.folder, integrator));
+        }
+        refuse_inputs(figures, arguments.request);
+    }
     arguments.request.settings.sample_count = options.spp;
     const Scene scene = prepare_scene(arguments);
     std::vector<Figured> runs;
+    const InterruptGuard interrupt;
     for (const Integrator integrator : options.integrators) {
+        if (interrupt.requested()) {
+            break;
+        }
         RenderSettings settings = arguments.request.settings;
         settings.integrator = integrator;
         const Stopwatch watch;
         std::vector<Session> sessions = open_sessions(scene, settings, pair);
-        Figured run{compare_all_paths(sessions.front(), sessions.back(), options.spp), watch.seconds(), ""};
+        Figured run{compare_all_paths(sessions.front(), sessions.back(), options.spp, interrupt.requested()),
+                    watch.seconds(), ""};
         if (!options.folder.empty()) {
-            run.figure =
-                (std::filesystem::path(options.folder) / fmt::format("paired-{}.png", name_of(integrator))).string();
+            run.figure = figure_path(options.folder, integrator).string();
             write_png(run.figure, heatmap(run.paths.differing, 0, 0.1F));
         }
         if (!options.json) {
@@ -156,6 +173,7 @@ int run_paired(RenderArguments arguments, const PairArguments& pair, const Paire
         json["scene"] = arguments.request.scene;
         json["backends"] = pair.backends;
         json["verdict"] = name_of(verdict);
+        json["interrupted"] = interrupt.requested().load();
         json["pairs"] = nlohmann::ordered_json::array();
         for (const Figured& run : runs) {
             json["pairs"].push_back(run_json(run));
@@ -163,6 +181,10 @@ int run_paired(RenderArguments arguments, const PairArguments& pair, const Paire
         print_json(json);
     } else {
         print_result("{}\n", name_of(verdict));
+    }
+    if (interrupt.requested()) {
+        report_error(fmt::format("{}: interrupted; the paths so far were compared", arguments.request.scene));
+        return interrupt_exit_code();
     }
     const bool fails = verdict == PairedVerdict::fail || (options.require_pass && verdict != PairedVerdict::pass);
     return fails ? exit_check_failed : exit_done;

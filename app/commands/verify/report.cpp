@@ -159,6 +159,7 @@ nlohmann::ordered_json suite_to_json(const VerifyOptions& options, const SuiteRe
     }
     json["seed"] = suite.seed;
     json["seconds"] = suite.seconds;
+    json["interrupted"] = suite.interrupted;
     json["commit"] = build_info::commit;
     if (const std::string next = next_command(options, suite); !next.empty()) {
         json["next_command"] = next;

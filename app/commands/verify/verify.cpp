@@ -187,6 +187,11 @@ int run_verify(VerifyOptions options) {
     } else {
         print_suite(options, *suite);
     }
+    if (suite->interrupted) {
+        report_error(fmt::format("{}: interrupted; {} of {} pairs have a verdict", options.arguments.request.scene,
+                                 suite->pairs.size(), pairs.size()));
+        return interrupt_exit_code();
+    }
     return exit_code_of(verdict_of(*suite), options.require_pass);
 }
 

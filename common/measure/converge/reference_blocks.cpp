@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "error.h"
-#include "image/atomic_file.h"
 #include "image/image_file.h"
+#include "measure/converge/checked_file.h"
 #include "render/film_statistics.h"
 #include "render/metadata.h"
 
@@ -46,23 +45,22 @@ void save(const std::string& path, const Blocks& blocks) {
     for (const std::vector<double>* values : {&blocks.sum, &blocks.squares}) {
         bytes.append(reinterpret_cast<const char*>(values->data()), values->size() * sizeof(double));
     }
-    write_file_atomically(path, bytes);
+    write_checked_file(path, bytes);
 }
 
 Blocks load(const std::string& path, std::size_t values) {
     Blocks blocks;
-    std::ifstream file(path, std::ios::binary);
-    std::uint64_t count = 0;
-    if (!file.read(reinterpret_cast<char*>(&count), sizeof count)) {
+    const std::optional<std::string> bytes = read_checked_file(path);
+    if (!bytes) {
         return blocks;
     }
-    blocks.count = static_cast<std::uint32_t>(count);
-    for (std::vector<double>* into : {&blocks.sum, &blocks.squares}) {
-        into->resize(values);
-        if (!file.read(reinterpret_cast<char*>(into->data()), static_cast<std::streamsize>(values * sizeof(double)))) {
-            throw Error(fmt::format("{}: is not whole; give another `output`", path));
-        }
+    ByteReader file(*bytes);
+    std::uint64_t count = 0;
+    if (!file.take(count) || count > reference_blocks || !file.take(blocks.sum, values) ||
+        !file.take(blocks.squares, values) || file.left() > 0) {
+        fail_as_damaged(path);
     }
+    blocks.count = static_cast<std::uint32_t>(count);
     return blocks;
 }
 

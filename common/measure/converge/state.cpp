@@ -13,6 +13,7 @@
 
 #include "error.h"
 #include "image/atomic_file.h"
+#include "measure/converge/checked_file.h"
 #include "measure/converge/method.h"
 
 namespace diptych::core {
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint32_t sums_magic = 0x31535444;  // "DTS1"
+constexpr std::uint32_t sums_magic = 0x32535444;  // "DTS2"
 
 template <class T>
 std::optional<T> found_in(const std::map<std::string, T>& all, const std::string& method) {
@@ -39,17 +40,6 @@ void put(std::string& bytes, const std::vector<float>& values) {
     bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
 }
 
-template <class T>
-bool take(std::ifstream& file, T& value) {
-    return static_cast<bool>(file.read(reinterpret_cast<char*>(&value), sizeof value));
-}
-
-bool take(std::ifstream& file, std::vector<float>& values, std::uint64_t count) {
-    values.resize(count);
-    return static_cast<bool>(
-        file.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(count * sizeof(float))));
-}
-
 }  // namespace
 
 ConvergeState::ConvergeState(const std::string& folder) : folder_(folder) {
@@ -62,29 +52,38 @@ ConvergeState::ConvergeState(const std::string& folder) : folder_(folder) {
     stream << file.rdbuf();
     const std::string text = stream.str();
     std::size_t at = 0;
-    for (std::size_t end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
-        const Json event = Json::parse(text.substr(at, end - at), nullptr, false);
-        if (event.is_discarded()) {
-            throw Error(fmt::format("{}: has a line that is not JSON; give another `output`", name));
-        }
-        const std::string kind = event.value("kind", ""), method = event.value("method", "");
-        if (kind == "scene") {
-            load_seconds_ = event.at("load_seconds");
-        } else if (kind == "limit") {
-            limits_[method] = event.at("spp_max");
-        } else if (kind == "setup") {
-            setups_[method] = setup_of(event);
-        } else if (kind == "reference") {
-            reference_ = rendered_reference_of(event);
-        } else if (kind == "run") {
-            const std::vector<ErrorRow> run = run_of(event);
-            rows_.insert(rows_.end(), run.begin(), run.end());
-        } else if (kind == "picture") {
-            pictures_[method] = picture_of(event);
+    int line = 1;
+    for (std::size_t end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1, ++line) {
+        try {
+            take(Json::parse(text.substr(at, end - at)));
+        } catch (const Json::exception&) {
+            throw Error(fmt::format("{}: line {} is damaged; give another `output`", name, line));
         }
     }
+    std::error_code failure;
     if (at < text.size()) {
-        fs::resize_file(name, at);
+        fs::resize_file(name, at, failure);
+    }
+    if (failure) {
+        throw Error(fmt::format("{}: cannot write: {}", name, failure.message()));
+    }
+}
+
+void ConvergeState::take(const Json& event) {
+    const std::string kind = event.at("kind"), method = event.value("method", "");
+    if (kind == "scene") {
+        load_seconds_ = event.at("load_seconds");
+    } else if (kind == "limit") {
+        limits_[method] = event.at("spp_max");
+    } else if (kind == "setup") {
+        setups_[method] = setup_of(event);
+    } else if (kind == "reference") {
+        reference_ = rendered_reference_of(event);
+    } else if (kind == "run") {
+        const std::vector<ErrorRow> run = run_of(event);
+        rows_.insert(rows_.end(), run.begin(), run.end());
+    } else if (kind == "picture") {
+        pictures_[method] = picture_of(event);
     }
 }
 
@@ -172,22 +171,23 @@ void ConvergeState::write_csv() const {
 std::map<std::uint32_t, DeviationSums> ConvergeState::load_sums(const std::string& method) const {
     const std::string name = sums_path(method);
     std::map<std::uint32_t, DeviationSums> all;
-    std::ifstream file(name, std::ios::binary);
-    if (!file) {
+    const std::optional<std::string> bytes = read_checked_file(name);
+    if (!bytes) {
         return all;
     }
+    ByteReader file(*bytes);
     std::uint32_t magic = 0, checkpoints = 0;
-    bool whole = take(file, magic) && magic == sums_magic && take(file, checkpoints);
+    bool whole = file.take(magic) && magic == sums_magic && file.take(checkpoints);
     for (std::uint32_t i = 0; whole && i < checkpoints; ++i) {
         std::uint32_t spp = 0;
         std::uint64_t values = 0;
         DeviationSums sums;
-        whole = take(file, spp) && take(file, sums.runs) && take(file, values) && values < (1ULL << 32U) &&
-                take(file, sums.sum, values) && take(file, sums.squares, values) && take(file, sums.largest, values);
+        whole = file.take(spp) && file.take(sums.runs) && file.take(values) && file.take(sums.sum, values) &&
+                file.take(sums.squares, values) && file.take(sums.largest, values);
         all[spp] = std::move(sums);
     }
-    if (!whole) {
-        throw Error(fmt::format("{}: is not whole; give another `output`", name));
+    if (!whole || file.left() > 0) {
+        fail_as_damaged(name);
     }
     return all;
 }
@@ -204,7 +204,7 @@ void ConvergeState::save_sums(const std::string& method, const std::map<std::uin
         put(bytes, sums.squares);
         put(bytes, sums.largest);
     }
-    write_file_atomically(sums_path(method), bytes);
+    write_checked_file(sums_path(method), bytes);
 }
 
 }  // namespace diptych::core

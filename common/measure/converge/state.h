@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,7 @@ public:
     std::string path(const std::string& name) const;
 
 private:
+    void take(const nlohmann::ordered_json& event);
     void append_line(const std::string& text) const;
     std::string sums_path(const std::string& method) const;
 
