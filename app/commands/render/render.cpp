@@ -219,7 +219,7 @@ int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) 
     if (options.json && picture.saved) {
         print_json(picture.json);
     }
-    return picture.interrupted ? interrupt_exit_code() : exit_done;
+    return picture_exit_code(picture);
 }
 
 int run_render(RenderOptions options) {
