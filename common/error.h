@@ -19,6 +19,12 @@ public:
     using Error::Error;
 };
 
+/// A device without room for what the task needs. `what()` says what was asked for, what is there, and what would fit.
+class OutOfMemory : public Error {
+public:
+    using Error::Error;
+};
+
 /// A device that fell away while it worked: what stands on it is lost, and another may be opened.
 class DeviceLost : public Error {
 public:

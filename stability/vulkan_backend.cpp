@@ -25,7 +25,7 @@ public:
     std::vector<MeasuredOutput> run(Function function, std::span<const MeasuredInput> inputs) override {
         Uploader uploader(*gpu_, std::uint64_t{8} << 20U);
         const Buffer in =
-            upload_array(*gpu_, uploader, "measured inputs", inputs, vk::BufferUsageFlagBits::eStorageBuffer);
+            upload_array(*gpu_, uploader, Purpose::other, inputs, vk::BufferUsageFlagBits::eStorageBuffer);
         uploader.finish();
         const Buffer out = make_storage(*gpu_, inputs.size() * sizeof(MeasuredOutput));
         const Buffer* const buffers[] = {&in, &out};

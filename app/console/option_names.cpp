@@ -17,6 +17,7 @@ constexpr OptionName names[] = {
     {"fov", "--fov"},
     {"ignored_extensions", "--ignore-extension"},
     {"integrator", "--integrator"},
+    {"layers", "--layers"},
     {"look_at", "--look-at"},
     {"mis", "--mis"},
     {"normal_maps", "--normal-maps"},
@@ -25,6 +26,7 @@ constexpr OptionName names[] = {
     {"reuse_mis", "--reuse-mis"},
     {"reuse_visibility", "--reuse-visibility"},
     {"sampler", "--sampler"},
+    {"size", "--size"},
     {"up", "--up"},
     {"view_height", "--view-height"},
 };

@@ -74,7 +74,7 @@ void change_layout(const vk::raii::CommandBuffer& commands, vk::Image image, vk:
 /// Grows `buffer` to `size` with room to spare; the frame that used it is over.
 void make_room(const Gpu& gpu, Buffer& buffer, std::uint64_t size, vk::BufferUsageFlags usage) {
     if (buffer.size < size) {
-        buffer = make_buffer(gpu, "the interface", size + size / 2, usage, MemoryKind::upload);
+        buffer = make_buffer(gpu, Purpose::display, size + size / 2, usage, MemoryKind::upload);
     }
 }
 
@@ -199,7 +199,7 @@ void ImguiPass::upload_font() {
     font_view_ = gpu_.device.createImageView(
         {.image = *font_image_, .viewType = vk::ImageViewType::e2D, .format = format, .subresourceRange = whole});
     const Buffer staging =
-        make_buffer(gpu_, "the interface's font", size, vk::BufferUsageFlagBits::eTransferSrc, MemoryKind::upload);
+        make_buffer(gpu_, Purpose::display, size, vk::BufferUsageFlagBits::eTransferSrc, MemoryKind::upload);
     std::memcpy(staging.mapped, texels, size);
     run_commands(gpu_, [&](const vk::raii::CommandBuffer& commands) {
         change_layout(commands, *font_image_, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);

@@ -54,7 +54,7 @@ private:
     vk::raii::RenderPass render_pass_ = nullptr;
     vk::raii::PipelineLayout layout_ = nullptr;
     vk::raii::Pipeline pipeline_ = nullptr;
-    vk::raii::DeviceMemory font_memory_ = nullptr;
+    Allocation font_memory_;
     vk::raii::Image font_image_ = nullptr;
     vk::raii::ImageView font_view_ = nullptr;
     vk::raii::DescriptorSet font_ = nullptr;

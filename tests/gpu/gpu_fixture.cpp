@@ -51,7 +51,7 @@ std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<s
     const FilmMemory film = make_film(gpu, static_cast<int>(rays.size()), 1, shared::FEATURE_FIRST_HIT_LAYERS);
     Uploader uploader(gpu);
     const Buffer ray_buffer =
-        upload_array(gpu, uploader, "rays", std::span(rays),
+        upload_array(gpu, uploader, Purpose::other, std::span(rays),
                      vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eShaderDeviceAddress);
     uploader.finish();
     SceneAddresses addresses = scene_addresses(scene);

@@ -30,7 +30,7 @@ TEST_CASE("An upload larger than the staging buffer arrives whole, among others"
             const auto first = 1000003U * static_cast<std::uint32_t>(sent.size() + 1);
             sent.push_back(numbers(staged == 1 ? count % 100 : count, first));
             const std::span<const std::uint32_t> all(sent.back());
-            buffers.push_back(upload_array(*gpu, uploader, "numbers", all, usage));
+            buffers.push_back(upload_array(*gpu, uploader, Purpose::other, all, usage));
         }
         uploader.finish();
         for (std::size_t i = 0; i < sent.size(); ++i) {

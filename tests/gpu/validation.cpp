@@ -13,7 +13,7 @@ TEST_CASE("Validation reports a write that races with another, and counts it") {
     {
         const auto opened = open_gpu({.device = "", .validation = true});
         const Gpu& gpu = *opened;
-        const Buffer buffer = make_buffer(gpu, "a test", 64, vk::BufferUsageFlagBits::eTransferDst, MemoryKind::device);
+        const Buffer buffer = make_buffer(gpu, Purpose::other, 64, vk::BufferUsageFlagBits::eTransferDst, MemoryKind::device);
         run_commands(gpu, [&](const vk::raii::CommandBuffer& commands) {
             commands.fillBuffer(*buffer.handle, 0, 64, 1);
             commands.fillBuffer(*buffer.handle, 0, 64, 2);

@@ -133,7 +133,7 @@ std::vector<Difference> compare_group(const Gpu& gpu, const Group& group, std::u
         const std::vector<ProbeInput> inputs = make_probe_inputs(seed + done, std::min(batch, count - done));
         Uploader uploader(gpu);
         const Buffer input_buffer =
-            upload_array(gpu, uploader, "probe inputs", std::span(inputs), vk::BufferUsageFlagBits::eStorageBuffer);
+            upload_array(gpu, uploader, Purpose::other, std::span(inputs), vk::BufferUsageFlagBits::eStorageBuffer);
         uploader.finish();
         const Buffer output_buffer = make_storage(gpu, inputs.size() * sizeof(ProbeOutput));
         const Buffer* const buffers[] = {&input_buffer, &output_buffer};

@@ -36,7 +36,7 @@ class DrawStream {
 public:
     DrawStream(const Gpu& gpu, ComputeShader& shader, const DrawSetup& setup) : gpu_(gpu), shader_(shader) {
         Uploader uploader(gpu);
-        setup_ = upload_array(gpu, uploader, "a sampler's setup", std::span(&setup, 1),
+        setup_ = upload_array(gpu, uploader, Purpose::other, std::span(&setup, 1),
                               vk::BufferUsageFlagBits::eStorageBuffer);
         uploader.finish();
         results_ = make_storage(gpu, batch * sizeof(Drawn));

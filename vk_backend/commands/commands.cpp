@@ -1,8 +1,6 @@
 #include "commands/commands.h"
 
-#include <cstdint>
 #include <exception>
-#include <limits>
 
 namespace diptych::core {
 
@@ -10,6 +8,13 @@ CommandSlot::CommandSlot(const Gpu& gpu)
     : gpu_(gpu), pool_(gpu.device.createCommandPool({.queueFamilyIndex = gpu.queue_family})),
       fence_(gpu.device.createFence({})) {
     commands_ = std::move(gpu.device.allocateCommandBuffers({.commandPool = *pool_, .commandBufferCount = 1}).front());
+}
+
+CommandSlot::~CommandSlot() {
+    try {
+        wait();
+    } catch (const std::exception&) {  // the device is lost, so nothing runs any more
+    }
 }
 
 void CommandSlot::submit(const Record& record) {
@@ -27,19 +32,9 @@ void CommandSlot::wait() {
     if (!in_flight_) {
         return;
     }
-    const vk::Result result = gpu_.device.waitForFences(*fence_, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
-    if (result != vk::Result::eSuccess) {
-        throw Error("Vulkan device " + gpu_.name + ": waiting for it gave " + vk::to_string(result));
-    }
+    wait_for(gpu_, *fence_);
     gpu_.device.resetFences(*fence_);
     in_flight_ = false;
-}
-
-CommandRing::~CommandRing() {
-    try {
-        drain();
-    } catch (const std::exception&) {  // the device is lost, so nothing runs any more
-    }
 }
 
 void CommandRing::submit(const Record& record) {

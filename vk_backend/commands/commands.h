@@ -15,6 +15,9 @@ using Record = std::function<void(Recorder&)>;
 class CommandSlot {
 public:
     explicit CommandSlot(const Gpu& gpu);
+    ~CommandSlot();  // waits for the submission
+    CommandSlot(const CommandSlot&) = delete;
+    CommandSlot& operator=(const CommandSlot&) = delete;
 
     /// Records and submits; the submission begins with a barrier. The slot must not be in flight.
     void submit(const Record& record);
@@ -34,9 +37,6 @@ private:
 class CommandRing {
 public:
     explicit CommandRing(const Gpu& gpu) : slots_{CommandSlot(gpu), CommandSlot(gpu)} {}
-    ~CommandRing();
-    CommandRing(const CommandRing&) = delete;
-    CommandRing& operator=(const CommandRing&) = delete;
 
     /// Records and submits. First waits for the older of two submissions in flight.
     void submit(const Record& record);

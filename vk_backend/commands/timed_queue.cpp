@@ -10,9 +10,9 @@ TimedQueue::TimedQueue(const Gpu& gpu, Finished finished)
     : gpu_(gpu), finished_(std::move(finished)), slots_{make_slot(), make_slot()} {}
 
 TimedQueue::Slot TimedQueue::make_slot() const {
-    return {.commands = CommandSlot(gpu_),
-            .queries =
+    return {.queries =
                 gpu_.device.createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = most_parts + 1}),
+            .commands = CommandSlot(gpu_),
             .work = 0,
             .labels = {},
             .submitted = {}};

@@ -41,8 +41,8 @@ public:
 
 private:
     struct Slot {
+        vk::raii::QueryPool queries;  // outlives the submission, for whose end `commands` waits
         CommandSlot commands;
-        vk::raii::QueryPool queries;
         std::uint64_t work = 0;
         std::vector<std::size_t> labels;  // of the submission's parts
         double submitted = 0;  // time of now_seconds

@@ -1,6 +1,7 @@
 #include "device/gpu.h"
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 
 #include "device/devices.h"
@@ -8,12 +9,15 @@
 namespace diptych::core {
 namespace {
 
+bool has_extension(const vk::raii::PhysicalDevice& physical, std::string_view name) {
+    const auto extensions = physical.enumerateDeviceExtensionProperties();
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](const auto& extension) { return name == extension.extensionName.data(); });
+}
+
 void require_presentation(const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
     const std::string name = physical.getProperties().deviceName.data();
-    const auto extensions = physical.enumerateDeviceExtensionProperties();
-    if (std::none_of(extensions.begin(), extensions.end(), [](const auto& extension) {
-            return std::string_view(extension.extensionName.data()) == VK_KHR_SWAPCHAIN_EXTENSION_NAME;
-        })) {
+    if (!has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) {
         throw NoDevice("Vulkan device " + name + " lacks " + VK_KHR_SWAPCHAIN_EXTENSION_NAME +
                        ", so it shows no window");
     }
@@ -42,6 +46,40 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint
     return physical.createDevice(info);
 }
 
+void find_memory_limits(Gpu& gpu) {
+    gpu.memory = gpu.physical.getMemoryProperties();
+    gpu.on_cpu = gpu.physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+    gpu.has_memory_budget = has_extension(gpu.physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    gpu.largest_allocation =
+        gpu.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>()
+            .get<vk::PhysicalDeviceMaintenance3Properties>()
+            .maxMemoryAllocationSize;
+    gpu.largest_buffer = std::numeric_limits<std::uint64_t>::max();
+    if (has_extension(gpu.physical, VK_KHR_MAINTENANCE_4_EXTENSION_NAME)) {
+        gpu.largest_buffer =
+            gpu.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance4PropertiesKHR>()
+                .get<vk::PhysicalDeviceMaintenance4PropertiesKHR>()
+                .maxBufferSize;
+    }
+}
+
+/// Runs a call to the queue or the device, and notes that the device is lost if the call says so.
+template <typename Call>
+void noting_loss(const Gpu& gpu, Call&& call) {
+    try {
+        call();
+    } catch (const vk::DeviceLostError&) {
+        gpu.lost = true;
+        throw;
+    }
+}
+
+/// The device comes to rest first, as a lost device does, so that what it used may be destroyed.
+[[noreturn]] void lose(const Gpu& gpu) {
+    gpu.device.waitIdle();
+    throw vk::DeviceLostError("a test");
+}
+
 }  // namespace
 
 std::shared_ptr<Gpu> open_gpu(const GpuRequest& request) {
@@ -57,7 +95,7 @@ std::shared_ptr<Gpu> open_gpu(const GpuRequest& request) {
         gpu.queue_family = static_cast<std::uint32_t>(compute_queue_family(gpu.physical));
         gpu.device = make_device(gpu.physical, gpu.queue_family, request.presents);
         gpu.queue = gpu.device.getQueue(gpu.queue_family, 0);
-        gpu.memory = gpu.physical.getMemoryProperties();
+        find_memory_limits(gpu);
         const auto properties =
             gpu.physical
                 .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceRayTracingPipelinePropertiesKHR,
@@ -79,12 +117,25 @@ std::shared_ptr<Gpu> open_gpu(const GpuRequest& request) {
 
 void submit(const Gpu& gpu, const vk::SubmitInfo& info, vk::Fence fence) {
     const std::lock_guard lock(gpu.queue_mutex);
-    gpu.queue.submit(info, fence);
+    noting_loss(gpu, [&] {
+        if (gpu.faults.submission && (gpu.lost || gpu.faults.submission())) {
+            lose(gpu);
+        }
+        gpu.queue.submit(info, fence);
+    });
+}
+
+void wait_for(const Gpu& gpu, vk::Fence fence) {
+    noting_loss(gpu, [&] {
+        while (gpu.device.waitForFences(fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()) ==
+               vk::Result::eTimeout) {
+        }
+    });
 }
 
 void wait_idle(const Gpu& gpu) {
     const std::lock_guard lock(gpu.queue_mutex);
-    in_context("waiting for the device", [&] { gpu.device.waitIdle(); });
+    in_context("waiting for the device", [&] { noting_loss(gpu, [&] { gpu.device.waitIdle(); }); });
 }
 
 }  // namespace diptych::core

@@ -11,13 +11,18 @@
 
 namespace diptych::core {
 
-/// Runs `work`. A Vulkan call that fails becomes an Error that names the task, or DeviceLost if the device is lost.
+/// Runs `work`. A Vulkan call that fails becomes an Error that names the task: DeviceLost if the device is lost,
+/// OutOfMemory if memory ran out.
 template <typename Work>
 auto in_context(const std::string& doing, Work&& work) {
     try {
         return work();
     } catch (const vk::DeviceLostError& error) {
         throw DeviceLost("Vulkan, " + doing + ": the device is lost: " + error.what());
+    } catch (const vk::OutOfDeviceMemoryError& error) {
+        throw OutOfMemory("Vulkan, " + doing + ": out of memory: " + error.what());
+    } catch (const vk::OutOfHostMemoryError& error) {
+        throw OutOfMemory("Vulkan, " + doing + ": out of memory: " + error.what());
     } catch (const vk::SystemError& error) {
         throw Error("Vulkan, " + doing + ": " + error.what());
     }

@@ -201,9 +201,9 @@ DisplayPicture make_display_picture(const Gpu& gpu, const DisplayPass& pass, std
             {.image = *picture.image, .viewType = vk::ImageViewType::e2D, .format = picture_format, .subresourceRange = whole});
         using BufferUsage = vk::BufferUsageFlagBits;
         picture.histogram = make_buffer(
-            gpu, "the picture's numbers", histogram_bytes,
+            gpu, Purpose::display, histogram_bytes,
             BufferUsage::eStorageBuffer | BufferUsage::eTransferDst | BufferUsage::eTransferSrc, MemoryKind::device);
-        picture.histograms = make_buffer(gpu, "the picture's numbers", std::uint64_t{display_slots} * histogram_bytes,
+        picture.histograms = make_buffer(gpu, Purpose::display, std::uint64_t{display_slots} * histogram_bytes,
                                          BufferUsage::eTransferDst, MemoryKind::readback);
         std::memset(picture.histograms.mapped, 0, picture.histograms.size);  // nothing has been shown yet
         bind(gpu, pass, picture);
@@ -267,7 +267,7 @@ std::optional<DisplayRange> shown_range(const DisplayPicture& picture, std::uint
 Image read_display(const Gpu& gpu, const DisplayPicture& picture) {
     return in_context("reading the picture", [&] {
         const std::size_t pixels = std::size_t{picture.width} * picture.height;
-        const Buffer host = make_buffer(gpu, "reading the picture", 4 * pixels, vk::BufferUsageFlagBits::eTransferDst,
+        const Buffer host = make_buffer(gpu, Purpose::readback, 4 * pixels, vk::BufferUsageFlagBits::eTransferDst,
                                         MemoryKind::readback);
         run_commands(gpu, [&](Recorder& recorder) {
             const vk::raii::CommandBuffer& commands = recorder;

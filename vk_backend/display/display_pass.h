@@ -55,7 +55,7 @@ DisplayPass make_display_pass(const Gpu& gpu);
 struct DisplayPicture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    vk::raii::DeviceMemory memory = nullptr;
+    Allocation memory;
     vk::raii::Image image = nullptr;
     vk::raii::ImageView view = nullptr;
     Buffer histogram;   // of a scalar layer's values; the pass counts in it

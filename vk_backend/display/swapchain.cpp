@@ -127,9 +127,8 @@ void FrameSlot::wait() {
         return;
     }
     in_context("waiting for a frame", [&] {
-        if (gpu_.device.waitForFences(*done_, VK_TRUE, forever) == vk::Result::eSuccess) {
-            gpu_.device.resetFences(*done_);
-        }
+        wait_for(gpu_, *done_);
+        gpu_.device.resetFences(*done_);
     });
     in_flight_ = false;
 }

@@ -4,6 +4,8 @@
 #include <initializer_list>
 #include <string>
 
+#include "memory/out_of_memory.h"
+
 namespace diptych::core {
 namespace {
 
@@ -29,52 +31,90 @@ std::uint32_t memory_type(const Gpu& gpu, std::uint32_t allowed, MemoryKind kind
     throw Error("Vulkan device " + gpu.name + ": no fitting memory type");
 }
 
-}  // namespace
+constexpr std::uint64_t large = std::uint64_t{1} << 20U;
 
-std::uint64_t largest_heap(const Gpu& gpu, vk::MemoryHeapFlags flags) {
-    std::uint64_t bytes = 0;
-    for (std::uint32_t i = 0; i < gpu.memory.memoryHeapCount; ++i) {
-        const vk::MemoryHeap& heap = gpu.memory.memoryHeaps[i];
-        bytes = std::max(bytes, (heap.flags & flags) == flags ? heap.size : 0);
+/// Some drivers accept more than they have, and one that renders on the CPU may crash instead of refusing. To ask how
+/// much is free takes some microseconds, so small allocations are left to the driver.
+void require_room(const Gpu& gpu, Purpose purpose, std::uint64_t bytes, std::uint32_t heap) {
+    const bool limited = gpu.faults.memory < gpu.memory.memoryHeaps[heap].size;
+    if (bytes < large && !limited) {
+        return;
     }
-    return bytes;
+    const HeapRoom room = heap_room(gpu, heap);
+    if (bytes > (gpu.on_cpu || limited ? room.free : room.size)) {
+        refuse_allocation(gpu, purpose, bytes, heap, {});
+    }
 }
 
-Buffer make_buffer(const Gpu& gpu, const char* what, std::uint64_t size, vk::BufferUsageFlags usage, MemoryKind kind) {
+/// All memory of the device is allocated here.
+Allocation allocate(const Gpu& gpu, Purpose purpose, const vk::MemoryRequirements& needs, MemoryKind kind,
+                    const vk::MemoryAllocateFlagsInfo* flags) {
+    const std::uint32_t type = memory_type(gpu, needs.memoryTypeBits, kind);
+    const std::uint32_t heap = gpu.memory.memoryTypes[type].heapIndex;
+    require_room(gpu, purpose, needs.size, heap);
+    if (gpu.faults.allocation && gpu.faults.allocation(purpose, needs.size)) {
+        refuse_allocation(gpu, purpose, needs.size, heap, "a test");
+    }
+    try {
+        return {gpu.device.allocateMemory({.pNext = flags, .allocationSize = needs.size, .memoryTypeIndex = type}),
+                MemoryCharge(gpu.memory_use, purpose, needs.size)};
+    } catch (const vk::SystemError& error) {
+        if (error.code() != vk::make_error_code(vk::Result::eErrorOutOfDeviceMemory) &&
+            error.code() != vk::make_error_code(vk::Result::eErrorOutOfHostMemory)) {
+            throw;
+        }
+        const bool too_large = needs.size > gpu.largest_allocation;
+        refuse_allocation(gpu, purpose, needs.size, heap,
+                          too_large ? "the device allocates at most " + size_text(gpu.largest_allocation) + " at once"
+                                    : error.what());
+    }
+}
+
+}  // namespace
+
+Buffer make_buffer(const Gpu& gpu, Purpose purpose, std::uint64_t size, vk::BufferUsageFlags usage, MemoryKind kind) {
     Buffer buffer;
     if (size == 0) {
         return buffer;
     }
-    if (size > largest_heap(gpu)) {  // some drivers accept a larger allocation
-        throw Error("Vulkan device " + gpu.name + ": " + what + ": " + std::to_string(size) +
-                    " bytes are more than it has");
+    if (size > gpu.largest_buffer) {
+        refuse_allocation(gpu, purpose, size, largest_heap(gpu),
+                          "the device's buffers have at most " + size_text(gpu.largest_buffer));
     }
-    in_context(std::string("allocating ") + std::to_string(size) + " bytes for " + what, [&] {
+    in_context("allocating " + size_text(size) + " for " + name_of(purpose), [&] {
         buffer.handle = gpu.device.createBuffer({.size = size, .usage = usage});
-        const vk::MemoryRequirements needs = buffer.handle.getMemoryRequirements();
         const bool addressed = static_cast<bool>(usage & vk::BufferUsageFlagBits::eShaderDeviceAddress);
         const vk::MemoryAllocateFlagsInfo flags{.flags = vk::MemoryAllocateFlagBits::eDeviceAddress};
-        buffer.memory = gpu.device.allocateMemory({.pNext = addressed ? &flags : nullptr,
-                                                   .allocationSize = needs.size,
-                                                   .memoryTypeIndex = memory_type(gpu, needs.memoryTypeBits, kind)});
-        buffer.handle.bindMemory(*buffer.memory, 0);
+        buffer.memory =
+            allocate(gpu, purpose, buffer.handle.getMemoryRequirements(), kind, addressed ? &flags : nullptr);
+        buffer.handle.bindMemory(*buffer.memory.memory, 0);
         buffer.size = size;
         if (addressed) {
             buffer.address = gpu.device.getBufferAddress({.buffer = *buffer.handle});
         }
         if (kind != MemoryKind::device) {
-            buffer.mapped = buffer.memory.mapMemory(0, VK_WHOLE_SIZE);
+            buffer.mapped = buffer.memory.memory.mapMemory(0, VK_WHOLE_SIZE);
         }
     });
     return buffer;
 }
 
-vk::raii::DeviceMemory allocate_image(const Gpu& gpu, const vk::raii::Image& image) {
-    const vk::MemoryRequirements needs = image.getMemoryRequirements();
-    vk::raii::DeviceMemory memory = gpu.device.allocateMemory(
-        {.allocationSize = needs.size, .memoryTypeIndex = memory_type(gpu, needs.memoryTypeBits, MemoryKind::device)});
-    image.bindMemory(*memory, 0);
-    return memory;
+Buffer make_largest_buffer(const Gpu& gpu, Purpose purpose, std::uint64_t size, std::uint64_t least,
+                           vk::BufferUsageFlags usage, MemoryKind kind) {
+    while (size / 2 >= least) {
+        try {
+            return make_buffer(gpu, purpose, size, usage, kind);
+        } catch (const OutOfMemory&) {
+            size /= 2;
+        }
+    }
+    return make_buffer(gpu, purpose, size, usage, kind);
+}
+
+Allocation allocate_image(const Gpu& gpu, const vk::raii::Image& image) {
+    Allocation allocation = allocate(gpu, Purpose::display, image.getMemoryRequirements(), MemoryKind::device, nullptr);
+    image.bindMemory(*allocation.memory, 0);
+    return allocation;
 }
 
 }  // namespace diptych::core

@@ -11,7 +11,7 @@ using Usage = vk::BufferUsageFlagBits;
 
 template <typename T>
 Buffer layer(const Gpu& gpu, std::uint64_t count) {
-    return make_buffer(gpu, "the film", count * sizeof(T),
+    return make_buffer(gpu, Purpose::film, count * sizeof(T),
                        Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferSrc | Usage::eTransferDst,
                        MemoryKind::device);
 }
@@ -67,6 +67,12 @@ Film read_film(const Gpu& gpu, const FilmMemory& film) {
 
 std::uint64_t film_bytes(const FilmMemory& film) {
     return film.pixels.size + film.moments.size + film.first_hits.size;
+}
+
+std::uint64_t film_bytes(std::uint64_t pixels, std::uint32_t features) {
+    return pixels * (sizeof(shared::FilmPixel) +
+                     ((features & shared::FEATURE_STANDARD_ERROR) != 0 ? sizeof(shared::FilmMoments) : 0) +
+                     ((features & shared::FEATURE_FIRST_HIT_LAYERS) != 0 ? sizeof(shared::FilmFirstHit) : 0));
 }
 
 }  // namespace diptych::core

@@ -34,4 +34,7 @@ Film read_film(const Gpu& gpu, const FilmMemory& film);
 
 std::uint64_t film_bytes(const FilmMemory& film);
 
+/// Bytes of a film of so many pixels.
+std::uint64_t film_bytes(std::uint64_t pixels, std::uint32_t features);
+
 }  // namespace diptych::core

@@ -17,8 +17,7 @@ const vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer |
 
 // The largest arrays of a scene. Settings do not change their contents, but may omit an array.
 bool is_lasting(std::string_view name) {
-    constexpr std::array lasting = {"positions", "triangles", "normals", "tangents", "uvs", "colors", "texels"};
-    return std::find(lasting.begin(), lasting.end(), name) != lasting.end();
+    return purpose_of_array(name) == Purpose::vertices || name == "texels";
 }
 
 bool holds(std::uint64_t revision, std::uint64_t wanted) {
@@ -30,7 +29,7 @@ void replace(const Gpu& gpu, Uploader& uploader, const char* name, const std::ve
              Buffer& buffer) {
     const std::span<const T> all(elements);
     if (buffer.size != all.size_bytes()) {
-        buffer = upload_array(gpu, uploader, (std::string("scene buffer ") + name).c_str(), all, usage);
+        buffer = upload_array(gpu, uploader, purpose_of_array(name), all, usage);
     } else if (!known || !is_lasting(name)) {
         uploader.upload(buffer, std::as_bytes(all));
     }
@@ -38,11 +37,20 @@ void replace(const Gpu& gpu, Uploader& uploader, const char* name, const std::ve
 
 }  // namespace
 
+Purpose purpose_of_array(std::string_view name) {
+    constexpr std::array vertices = {"positions", "triangles", "normals", "tangents", "uvs", "colors"};
+    constexpr std::array textures = {"texels", "environment_texels", "environment_table"};
+    const auto is_one_of = [&](const auto& names) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    return is_one_of(vertices) ? Purpose::vertices : is_one_of(textures) ? Purpose::textures : Purpose::tables;
+}
+
 SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed) {
     SceneMemory scene;
     Uploader uploader(gpu);
 #define UPLOAD_BUFFER(Type, name)                                                                                      \
-    scene.name = upload_array(gpu, uploader, "scene buffer " #name, std::span(packed.name), usage);
+    scene.name = upload_array(gpu, uploader, purpose_of_array(#name), std::span(packed.name), usage);
     SCENE_BUFFERS(UPLOAD_BUFFER)
 #undef UPLOAD_BUFFER
     uploader.finish();

@@ -1,6 +1,8 @@
 // A packed scene's arrays on the device.
 #pragma once
 
+#include <string_view>
+
 #include "memory/buffer.h"
 #include "pack/packed_scene.h"
 #include "memory/scene_addresses.h"
@@ -14,6 +16,9 @@ struct SceneMemory {
 #undef DECLARE_BUFFER
     Revisions revisions;  // of the uploaded contents
 };
+
+/// What the array of that name is for.
+Purpose purpose_of_array(std::string_view name);
 
 /// Uploads every array that is not empty.
 SceneMemory upload_scene(const Gpu& gpu, const PackedScene& packed);

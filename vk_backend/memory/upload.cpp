@@ -7,10 +7,16 @@
 #include "language/compat.h"
 
 namespace diptych::core {
+namespace {
+
+constexpr std::uint64_t least_staging = std::uint64_t{64} << 10U;
+
+}  // namespace
 
 Uploader::Uploader(const Gpu& gpu, std::uint64_t capacity)
     : gpu_(gpu),
-      staging_(make_buffer(gpu, "staging", capacity, vk::BufferUsageFlagBits::eTransferSrc, MemoryKind::upload)) {}
+      staging_(make_largest_buffer(gpu, Purpose::staging, capacity, least_staging,
+                                   vk::BufferUsageFlagBits::eTransferSrc, MemoryKind::upload)) {}
 
 void Uploader::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
     std::uint64_t done = 0;

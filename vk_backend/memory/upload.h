@@ -9,7 +9,8 @@
 
 namespace diptych::core {
 
-/// Collects copies until the staging buffer is full, then submits them together. finish() submits the rest.
+/// Collects copies until the staging buffer is full, then submits them together. finish() submits the rest. The staging
+/// buffer is smaller than `capacity` where memory is short.
 class Uploader {
 public:
     explicit Uploader(const Gpu& gpu, std::uint64_t capacity = std::uint64_t{64} << 20U);
@@ -33,9 +34,9 @@ private:
 /// Creates a device buffer for the elements, with eTransferDst added to its usage. For no elements nothing is
 /// allocated.
 template <typename T>
-Buffer upload_array(const Gpu& gpu, Uploader& uploader, const char* what, std::span<const T> elements,
+Buffer upload_array(const Gpu& gpu, Uploader& uploader, Purpose purpose, std::span<const T> elements,
                     vk::BufferUsageFlags usage) {
-    Buffer buffer = make_buffer(gpu, what, elements.size_bytes(), usage | vk::BufferUsageFlagBits::eTransferDst,
+    Buffer buffer = make_buffer(gpu, purpose, elements.size_bytes(), usage | vk::BufferUsageFlagBits::eTransferDst,
                                 MemoryKind::device);
     uploader.upload(buffer, std::as_bytes(elements));
     return buffer;

@@ -7,6 +7,7 @@
 
 #include "film/film_pixel.h"
 #include "geometry/hit.h"
+#include "device/heap_room.h"
 #include "memory/readback.h"
 #include "language/scene_features.h"
 
@@ -16,11 +17,10 @@ namespace {
 using Usage = vk::BufferUsageFlagBits;
 
 constexpr std::uint64_t most_paths = std::uint64_t{1} << 21U;  // then the fixed cost of a wave is small
-constexpr std::uint64_t fewest_paths = std::uint64_t{1} << 16U;
+constexpr std::uint64_t fewest_wanted = std::uint64_t{1} << 16U;
 static_assert(most_paths <= most_invocations);
 constexpr std::uint64_t part_of_memory = 16;
-constexpr std::uint64_t bytes_of_path = sizeof(shared::WavePath) + sizeof(shared::FirstHit) +
-                                        2 * sizeof(std::uint32_t) + sizeof(shared::Hit) + sizeof(shared::WaveShadow);
+constexpr std::uint32_t all_buffers = shared::FEATURE_FIRST_HIT_LAYERS | shared::FEATURE_LIGHT_SAMPLING;
 
 constexpr Use counts_read{Resource::wave_counts, Unit::indirect, Effect::read};
 
@@ -40,20 +40,14 @@ std::array<const Buffer*, 6> buffers_of(const WaveMemory& memory) {
     return {&memory.paths, &memory.first_hits, &memory.queues, &memory.hits, &memory.shadows, &memory.counts};
 }
 
-}  // namespace
-
-std::uint32_t path_capacity(const Gpu& gpu, std::uint64_t pixels) {
-    const std::uint64_t room = largest_heap(gpu, vk::MemoryHeapFlagBits::eDeviceLocal) / part_of_memory / bytes_of_path;
-    return static_cast<std::uint32_t>(std::clamp(pixels, fewest_paths, std::clamp(room, fewest_paths, most_paths)));
-}
-
-WaveMemory make_wave_memory(const Gpu& gpu, std::uint32_t capacity, std::uint32_t features) {
+WaveMemory allocate_waves(const Gpu& gpu, std::uint32_t wanted, std::uint32_t capacity, std::uint32_t features) {
     const auto make = [&](std::uint64_t bytes, vk::BufferUsageFlags more = {}) {
-        return make_buffer(gpu, "paths in flight", bytes, Usage::eStorageBuffer | Usage::eShaderDeviceAddress | more,
-                           MemoryKind::device);
+        return make_buffer(gpu, Purpose::paths_in_flight, bytes,
+                           Usage::eStorageBuffer | Usage::eShaderDeviceAddress | more, MemoryKind::device);
     };
     const std::uint64_t paths = capacity;
-    return {.capacity = capacity,
+    return {.wanted = wanted,
+            .capacity = capacity,
             .paths = make(paths * sizeof(shared::WavePath)),
             .first_hits = make(keeps_first_hits(features) ? paths * sizeof(shared::FirstHit) : 0),
             .queues = make(paths * 2 * sizeof(std::uint32_t)),
@@ -63,8 +57,33 @@ WaveMemory make_wave_memory(const Gpu& gpu, std::uint32_t capacity, std::uint32_
                            Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc)};
 }
 
+}  // namespace
+
+std::uint32_t path_capacity(const Gpu& gpu, std::uint64_t pixels) {
+    const std::uint64_t bytes = largest_heap_bytes(gpu, vk::MemoryHeapFlagBits::eDeviceLocal);
+    const std::uint64_t room = bytes / part_of_memory / wave_path_bytes(all_buffers);
+    return static_cast<std::uint32_t>(std::clamp(pixels, fewest_wanted, std::clamp(room, fewest_wanted, most_paths)));
+}
+
+std::uint64_t wave_path_bytes(std::uint32_t features) {
+    return sizeof(shared::WavePath) + (keeps_first_hits(features) ? sizeof(shared::FirstHit) : 0) +
+           2 * sizeof(std::uint32_t) + sizeof(shared::Hit) + (samples_lights(features) ? sizeof(shared::WaveShadow) : 0);
+}
+
+WaveMemory make_wave_memory(const Gpu& gpu, std::uint32_t capacity, std::uint32_t features) {
+    std::uint32_t fitting = capacity;
+    while (fitting / 2 >= fewest_paths) {
+        try {
+            return allocate_waves(gpu, capacity, fitting, features);
+        } catch (const OutOfMemory&) {
+            fitting /= 2;
+        }
+    }
+    return allocate_waves(gpu, capacity, fitting, features);
+}
+
 bool fits(const WaveMemory& memory, std::uint32_t capacity, std::uint32_t features) {
-    return memory.capacity >= capacity && (capacity > 0 || memory.capacity == 0) &&
+    return memory.wanted >= capacity && (capacity > 0 || memory.wanted == 0) &&
            (memory.first_hits.size > 0) == keeps_first_hits(features) &&
            (memory.shadows.size > 0) == samples_lights(features);
 }

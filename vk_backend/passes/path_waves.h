@@ -11,8 +11,12 @@ namespace diptych::core {
 /// A small film has several samples of each pixel in flight; a very large one is rendered in parts.
 std::uint32_t path_capacity(const Gpu& gpu, std::uint64_t pixels);
 
+/// Fewer paths at a time cost time and change no result. Below this number a wave is mostly its fixed cost.
+inline constexpr std::uint32_t fewest_paths = 4096;
+
 struct WaveMemory {
-    std::uint32_t capacity = 0;  // paths
+    std::uint32_t wanted = 0;    // paths
+    std::uint32_t capacity = 0;  // paths that there was memory for
     Buffer paths;
     Buffer first_hits;  // allocated if the film has first-hit layers
     Buffer queues;
@@ -21,9 +25,13 @@ struct WaveMemory {
     Buffer counts;
 };
 
+/// For `capacity` paths, or half as many, and so on down to fewest_paths, where memory is short.
 WaveMemory make_wave_memory(const Gpu& gpu, std::uint32_t capacity, std::uint32_t features);
 
-/// Whether the memory has at least that capacity, and exactly the buffers that `features` needs.
+/// Bytes of one path.
+std::uint64_t wave_path_bytes(std::uint32_t features);
+
+/// Whether the memory was made for at least that capacity, and has exactly the buffers that `features` needs.
 bool fits(const WaveMemory& memory, std::uint32_t capacity, std::uint32_t features);
 
 std::uint64_t wave_memory_bytes(const WaveMemory& memory);

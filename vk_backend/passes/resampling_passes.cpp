@@ -9,10 +9,10 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-Buffer film_buffer(const Gpu& gpu, const char* what, std::uint64_t bytes,
+Buffer film_buffer(const Gpu& gpu, std::uint64_t bytes,
                    vk::BufferUsageFlags more = Usage::eTransferSrc) {
     return bytes == 0 ? Buffer{}
-                      : make_buffer(gpu, what, bytes, Usage::eStorageBuffer | Usage::eShaderDeviceAddress | more,
+                      : make_buffer(gpu, Purpose::reservoirs, bytes, Usage::eStorageBuffer | Usage::eShaderDeviceAddress | more,
                                     MemoryKind::device);
 }
 
@@ -40,10 +40,10 @@ Bytes bytes_for(const shared::RenderConstants& constants) {
 
 ResamplingMemory make_resampling_memory(const Gpu& gpu, const shared::RenderConstants& constants) {
     const Bytes bytes = bytes_for(constants);
-    return {.first_vertices = film_buffer(gpu, "first vertices", bytes.first_vertices),
-            .reservoirs = film_buffer(gpu, "reservoirs", bytes.reservoirs),
-            .surfaces = film_buffer(gpu, "reuse surfaces", bytes.surfaces),
-            .candidate_list = film_buffer(gpu, "candidates that need rays", bytes.candidate_list,
+    return {.first_vertices = film_buffer(gpu, bytes.first_vertices),
+            .reservoirs = film_buffer(gpu, bytes.reservoirs),
+            .surfaces = film_buffer(gpu, bytes.surfaces),
+            .candidate_list = film_buffer(gpu, bytes.candidate_list,
                                           Usage::eIndirectBuffer | Usage::eTransferDst)};
 }
 
@@ -62,6 +62,11 @@ void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory)
 
 std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory) {
     return memory.first_vertices.size + memory.reservoirs.size + memory.surfaces.size + memory.candidate_list.size;
+}
+
+std::uint64_t resampling_memory_bytes(const shared::RenderConstants& constants) {
+    const Bytes bytes = bytes_for(constants);
+    return bytes.first_vertices + bytes.reservoirs + bytes.surfaces + bytes.candidate_list;
 }
 
 bool reuse_traces(const shared::RenderConstants& constants) {

@@ -27,6 +27,9 @@ void enter_resampling(SceneAddresses& addresses, const ResamplingMemory& memory)
 
 std::uint64_t resampling_memory_bytes(const ResamplingMemory& memory);
 
+/// Bytes that make_resampling_memory allocates.
+std::uint64_t resampling_memory_bytes(const shared::RenderConstants& constants);
+
 /// Whether reuse traces rays. Otherwise its passes are compute shaders.
 bool reuse_traces(const shared::RenderConstants& constants);
 

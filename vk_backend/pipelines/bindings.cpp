@@ -19,8 +19,8 @@ Bindings make_bindings(const Gpu& gpu, const PipelineLayout& layout, const Struc
     Bindings made;
     Uploader uploader(gpu, 4096);
     const vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eUniformBuffer;
-    made.addresses = upload_array(gpu, uploader, "addresses", std::span(&addresses, 1), usage);
-    made.constants = upload_array(gpu, uploader, "constants", std::span(&constants, 1), usage);
+    made.addresses = upload_array(gpu, uploader, Purpose::pipelines, std::span(&addresses, 1), usage);
+    made.constants = upload_array(gpu, uploader, Purpose::pipelines, std::span(&constants, 1), usage);
     uploader.finish();
 
     const std::array<vk::DescriptorPoolSize, 2> sizes = {

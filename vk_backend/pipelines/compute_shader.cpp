@@ -55,7 +55,7 @@ void ComputeShader::run(std::span<const Buffer* const> buffers, std::uint32_t co
 
 Buffer make_storage(const Gpu& gpu, std::uint64_t bytes) {
     using Usage = vk::BufferUsageFlagBits;
-    return make_buffer(gpu, "a compute shader", bytes,
+    return make_buffer(gpu, Purpose::other, bytes,
                        Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst, MemoryKind::device);
 }
 

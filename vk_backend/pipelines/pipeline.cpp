@@ -57,7 +57,7 @@ void fill_table(const Gpu& gpu, TracePipeline& built) {
     const std::vector<std::uint8_t> handles =
         built.pipeline.getRayTracingShaderGroupHandlesKHR<std::uint8_t>(0, group_count, group_count * handle);
 
-    built.table = make_buffer(gpu, "the shader binding table", first_stride + 2 * pair + base,
+    built.table = make_buffer(gpu, Purpose::pipelines, first_stride + 2 * pair + base,
                               vk::BufferUsageFlagBits::eShaderBindingTableKHR |
                                   vk::BufferUsageFlagBits::eShaderDeviceAddress | vk::BufferUsageFlagBits::eTransferDst,
                               MemoryKind::device);

@@ -16,7 +16,7 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr std::uint64_t most_bytes = std::uint64_t{256} << 20U;  // of records on the device at a time
 
 Buffer record_buffer(const Gpu& gpu, std::uint64_t bytes) {
-    return make_buffer(gpu, "recorded paths", bytes,
+    return make_buffer(gpu, Purpose::recorded_paths, bytes,
                        Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferSrc, MemoryKind::device);
 }
 
@@ -31,7 +31,7 @@ void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& 
     }
     Uploader uploader(*gpu_);
     const Buffer list =
-        upload_array(*gpu_, uploader, "paths to trace", queries, Usage::eStorageBuffer | Usage::eShaderDeviceAddress);
+        upload_array(*gpu_, uploader, Purpose::recorded_paths, queries, Usage::eStorageBuffer | Usage::eShaderDeviceAddress);
     uploader.finish();
     SceneAddresses all = addresses(*film_);
     all.path_queries = list.address;

@@ -4,14 +4,14 @@
 
 #include "clock.h"
 #include "passes/pass_table.h"
+#include "renderer/memory_plan.h"
 #include "shader_binaries.h"
 
 namespace diptych::core {
 namespace {
 
 InstanceGroups chosen_groups(const Gpu& gpu, const PackedScene& packed, Grouping grouping) {
-    const bool on_cpu = gpu.physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
-    const bool wanted = grouping == Grouping::anywhere || (grouping == Grouping::on_gpus && !on_cpu);
+    const bool wanted = grouping == Grouping::anywhere || (grouping == Grouping::on_gpus && !gpu.on_cpu);
     return wanted ? group_instances(packed) : InstanceGroups{};
 }
 
@@ -52,6 +52,8 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
     : gpu_(std::move(gpu)), constants_(packed.constants), features_(packed.features), changes_(changes),
       schedule_(packed.constants) {
     const Stopwatch building;
+    in_context("planning the memory",
+               [&] { require_memory(*gpu_, packed, chosen_groups(*gpu_, packed, changes_.grouping)); });
     upkeep_ = std::make_unique<CommandRing>(*gpu_);
     in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
     in_context("building acceleration structures", [&] { build_structures(packed); });
@@ -367,6 +369,10 @@ std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const 
 
 std::shared_ptr<Gpu> open_device(const VulkanOptions& options) {
     return open_gpu(GpuRequest{.device = options.device, .validation = validation_wanted(options.validation)});
+}
+
+bool is_lost(const Gpu& gpu) {
+    return gpu.lost;
 }
 
 std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed,

@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "renderer/path_renderer.h"
+#include "device/heap_room.h"
 #include "memory/readback.h"
 #include "shader_binaries.h"
 
@@ -37,9 +38,9 @@ RayMemory make_ray_memory(const Gpu& gpu, std::uint32_t capacity) {
         Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferDst | Usage::eTransferSrc;
     RayMemory memory;
     memory.capacity = capacity;
-    memory.rays = make_buffer(gpu, "recorded rays", std::max(capacity, 1U) * sizeof(shared::RecordedRay), usage,
+    memory.rays = make_buffer(gpu, Purpose::recorded_paths, std::max(capacity, 1U) * sizeof(shared::RecordedRay), usage,
                               MemoryKind::device);
-    memory.counters = make_buffer(gpu, "ray counters", sizeof(shared::RayCounters), usage, MemoryKind::device);
+    memory.counters = make_buffer(gpu, Purpose::recorded_paths, sizeof(shared::RayCounters), usage, MemoryKind::device);
     run_commands(gpu, [&](Recorder& recorder) {
         recorder.use({{Resource::recorded_rays, Unit::transfer, Effect::write}});
         recorder->fillBuffer(*memory.counters.handle, 0, VK_WHOLE_SIZE, 0);
@@ -116,7 +117,7 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
             integrate(recording, bindings, block, 0);
             return count_rays(*gpu_, memory);
         };
-        const std::uint64_t room = std::min(most_ray_bytes, largest_heap(*gpu_) / 4) / sizeof(shared::RecordedRay);
+        const std::uint64_t room = std::min(most_ray_bytes, largest_heap_bytes(*gpu_) / 4) / sizeof(shared::RecordedRay);
         Block block{{0, 0, constants_.size.x, constants_.size.y}, std::max(samples, 1U)};
         std::uint64_t rays = rays_of(block);
         while (rays > room && block.region.height > 1) {

@@ -23,8 +23,12 @@ struct VulkanOptions {
 /// Opens the device that the options name. Throws NoDevice or Error.
 std::shared_ptr<Gpu> open_device(const VulkanOptions& options);
 
+/// Whether the device was lost. It is of no use any more, but the same device can be opened anew.
+bool is_lost(const Gpu& gpu);
+
 /// Uploads the scene, builds its acceleration structures and compiles its pipeline. `packed` is not used afterwards.
-/// Throws NoDevice, which says what is missing, if no device is usable; Error if a device fails.
+/// Throws NoDevice, which says what is missing, if no device is usable; OutOfMemory, before anything is allocated where
+/// that can be known, and which then leaves nothing behind; Error if a device fails.
 std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options);
 
 /// The same on an open device, which other threads may use at the same time. Of the options only group_instances is

@@ -46,7 +46,8 @@ struct TopLevel {
     std::uint64_t revision = 0;                                   // of the instances at the last build
 };
 
-/// Limits of the memory of one batch of builds. A mesh that needs more is a batch of its own.
+/// Limits of the memory of one batch of builds. A mesh that needs more is a batch of its own. Where memory is short,
+/// batches are smaller.
 struct BuildLimits {
     std::uint64_t structure_bytes = std::uint64_t{256} << 20U;
     std::uint64_t scratch_bytes = std::uint64_t{128} << 20U;
@@ -55,6 +56,14 @@ struct BuildLimits {
 
 BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene,
                                  const InstanceGroups& groups, const BuildLimits& limits = {});
+
+struct BuildBytes {
+    std::uint64_t structure = 0;  // before compaction
+    std::uint64_t scratch = 0;
+};
+
+/// What the build with the most triangles needs. Nothing has to be on the device yet.
+BuildBytes largest_build(const Gpu& gpu, const PackedScene& packed, const InstanceGroups& groups);
 
 /// The first grouped instance that has moved since its group was built. After packing about another origin, all of
 /// them have moved.

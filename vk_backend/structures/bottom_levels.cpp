@@ -107,14 +107,14 @@ Buffer upload_transforms(const Gpu& gpu, const PackedScene& packed, const Instan
     }
     Uploader uploader(gpu, std::uint64_t{4} << 20U);
     Buffer buffer =
-        upload_array(gpu, uploader, "transforms of built vertices", std::span<const vk::TransformMatrixKHR>(transforms),
+        upload_array(gpu, uploader, Purpose::structure_scratch, std::span<const vk::TransformMatrixKHR>(transforms),
                      Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress);
     uploader.finish();
     return buffer;
 }
 
-Buffer structure_buffer(const Gpu& gpu, const char* what, std::uint64_t bytes) {
-    return make_buffer(gpu, what, bytes, Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress,
+Buffer structure_buffer(const Gpu& gpu, std::uint64_t bytes) {
+    return make_buffer(gpu, Purpose::structures, bytes, Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress,
                        MemoryKind::device);
 }
 
@@ -133,7 +133,7 @@ struct Batch {
     std::vector<std::uint64_t> compacted_bytes;
 };
 
-Batch build_batch(const Gpu& gpu, std::vector<StructureBuild>& builds) {
+Batch build_batch(const Gpu& gpu, std::span<StructureBuild> builds) {
     std::uint64_t structure_bytes = 0;
     std::uint64_t scratch_bytes = 0;
     for (const StructureBuild& build : builds) {
@@ -141,8 +141,8 @@ Batch build_batch(const Gpu& gpu, std::vector<StructureBuild>& builds) {
         scratch_bytes += build.scratch_bytes;
     }
     Batch batch;
-    batch.storage = structure_buffer(gpu, "acceleration structures", structure_bytes);
-    const Buffer scratch = make_buffer(gpu, "building acceleration structures", scratch_bytes + gpu.scratch_alignment,
+    batch.storage = structure_buffer(gpu, structure_bytes);
+    const Buffer scratch = make_buffer(gpu, Purpose::structure_scratch, scratch_bytes + gpu.scratch_alignment,
                                        Usage::eStorageBuffer | Usage::eShaderDeviceAddress, MemoryKind::device);
     vk::DeviceAddress scratch_address = align_up(scratch.address, gpu.scratch_alignment);
     std::uint64_t offset = 0;
@@ -179,13 +179,13 @@ Batch build_batch(const Gpu& gpu, std::vector<StructureBuild>& builds) {
     return batch;
 }
 
-void compact_batch(const Gpu& gpu, const Batch& batch, const std::vector<std::size_t>& indices, BottomLevels& levels) {
-    std::uint64_t total = 0;
+void compact_batch(const Gpu& gpu, const Batch& batch, std::span<const std::size_t> indices, BottomLevels& levels) {
+    std::uint64_t bytes_of_all = 0;
     for (const std::uint64_t bytes : batch.compacted_bytes) {
-        total += align_up(bytes, structure_alignment);
+        bytes_of_all += align_up(bytes, structure_alignment);
     }
-    levels.storage.push_back(structure_buffer(gpu, "compacted acceleration structures", total));
-    levels.bytes += total;
+    levels.storage.push_back(structure_buffer(gpu, bytes_of_all));
+    levels.bytes += bytes_of_all;
     levels.built_bytes += batch.storage.size;
     std::uint64_t offset = 0;
     for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -200,13 +200,80 @@ void compact_batch(const Gpu& gpu, const Batch& batch, const std::vector<std::si
                                                     .mode = vk::CopyAccelerationStructureModeKHR::eCompact});
         }
     });
+}
+
+/// Builds and compacts. Where memory is short it goes in halves; a single structure stays as it was built if there is no
+/// room for its compacted copy.
+void build_and_compact(const Gpu& gpu, std::span<StructureBuild> builds, std::span<const std::size_t> indices,
+                       BottomLevels& levels) {
+    const std::size_t half = builds.size() / 2;
+    try {
+        Batch batch = build_batch(gpu, builds);
+        try {
+            compact_batch(gpu, batch, indices, levels);
+        } catch (const OutOfMemory&) {
+            if (half > 0) {
+                throw;
+            }
+            levels.bytes += batch.storage.size;
+            levels.built_bytes += batch.storage.size;
+            levels.storage.push_back(std::move(batch.storage));
+            levels.structures[indices.front()] = std::move(batch.structures.front());
+        }
+    } catch (const OutOfMemory&) {
+        if (half == 0) {
+            throw;
+        }
+        build_and_compact(gpu, builds.first(half), indices.first(half), levels);
+        build_and_compact(gpu, builds.subspan(half), indices.subspan(half), levels);
+        return;
+    }
     for (const std::size_t index : indices) {
         levels.addresses[index] =
             gpu.device.getAccelerationStructureAddressKHR({.accelerationStructure = *levels.structures[index]});
     }
 }
 
+std::uint64_t triangles_of(const PackedScene& packed, std::size_t mesh) {
+    const MeshRange& range = packed.meshes[mesh];
+    std::uint64_t triangles = 0;
+    for (std::uint32_t i = range.first_geometry; i < range.first_geometry + range.geometry_count; ++i) {
+        triangles += packed.geometry_extents[i].triangle_count;
+    }
+    return triangles;
+}
+
 }  // namespace
+
+BuildBytes largest_build(const Gpu& gpu, const PackedScene& packed, const InstanceGroups& groups) {
+    std::vector<std::uint64_t> triangles(packed.meshes.size() + groups.groups.size(), 0);
+    const std::vector<bool> away = meshes_grouped_away(packed, groups);
+    for (std::size_t i = 0; i < packed.meshes.size(); ++i) {
+        triangles[i] = away[i] ? 0 : triangles_of(packed, i);
+    }
+    for (std::size_t i = 0; i < groups.groups.size(); ++i) {
+        for (const std::uint32_t instance : groups.groups[i].instances) {
+            triangles[packed.meshes.size() + i] += triangles_of(packed, packed.instance_meshes[instance]);
+        }
+    }
+    const auto most = std::max_element(triangles.begin(), triangles.end());
+    if (most == triangles.end() || *most == 0) {
+        return {};
+    }
+    const auto index = static_cast<std::size_t>(most - triangles.begin());
+    // Sizes depend on no address, but on whether there is a transform.
+    constexpr vk::DeviceAddress some_address = 16;
+    StructureBuild build;
+    if (index < packed.meshes.size()) {
+        add_mesh(packed, {}, index, some_address, build);
+    } else {
+        for (const std::uint32_t instance : groups.groups[index - packed.meshes.size()].instances) {
+            add_mesh(packed, {}, packed.instance_meshes[instance], some_address, build);
+        }
+    }
+    size_build(gpu, build);
+    return {build.structure_bytes, build.scratch_bytes};
+}
 
 BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, const SceneMemory& scene,
                                  const InstanceGroups& groups, const BuildLimits& limits) {
@@ -223,8 +290,7 @@ BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, cons
     std::uint64_t scratch_bytes = 0;
     const auto flush = [&] {
         if (!builds.empty()) {
-            const Batch batch = build_batch(gpu, builds);
-            compact_batch(gpu, batch, indices, levels);
+            build_and_compact(gpu, builds, indices, levels);
         }
         builds.clear();
         indices.clear();
@@ -270,7 +336,7 @@ BottomLevels build_bottom_levels(const Gpu& gpu, const PackedScene& packed, cons
         levels.standing = packed.instances;
         Uploader uploader(gpu, std::uint64_t{4} << 20U);
         levels.grouped_geometries =
-            upload_array(gpu, uploader, "geometries of grouped instances", std::span(groups.geometries),
+            upload_array(gpu, uploader, Purpose::structures, std::span(groups.geometries),
                          Usage::eStorageBuffer | Usage::eShaderDeviceAddress);
         uploader.finish();
     }

@@ -70,7 +70,7 @@ void describe_level(const Gpu& gpu, Type type, const vk::AccelerationStructureGe
 
 vk::raii::AccelerationStructureKHR make_structure(const Gpu& gpu, Type type, const Level& level, Buffer& storage) {
     const std::uint64_t bytes = level.sizes.accelerationStructureSize;
-    storage = make_buffer(gpu, "the emitters' acceleration structure", bytes,
+    storage = make_buffer(gpu, Purpose::structures, bytes,
                           Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress, MemoryKind::device);
     return gpu.device.createAccelerationStructureKHR({.buffer = *storage.handle, .size = bytes, .type = type});
 }
@@ -80,7 +80,7 @@ void build(const Gpu& gpu, std::vector<shared::vec3> from, EmitterStructure& emi
     const Usage input = Usage::eAccelerationStructureBuildInputReadOnlyKHR;
     const auto count = static_cast<std::uint32_t>(from.size() / 3);
     Uploader uploader(gpu, std::uint64_t{4} << 20U);
-    const Buffer corners = upload_array(gpu, uploader, "corners of emitters", std::span(std::as_const(from)),
+    const Buffer corners = upload_array(gpu, uploader, Purpose::structure_scratch, std::span(std::as_const(from)),
                                         input | Usage::eShaderDeviceAddress);
     Level bottom;
     describe_level(gpu, Type::eBottomLevel, describe_triangles(corners.address, count), count, bottom);
@@ -89,7 +89,7 @@ void build(const Gpu& gpu, std::vector<shared::vec3> from, EmitterStructure& emi
     }
     const vk::AccelerationStructureInstanceKHR described =
         describe_instance(gpu.device.getAccelerationStructureAddressKHR({.accelerationStructure = *emitters.bottom}));
-    const Buffer instance = upload_array(gpu, uploader, "the instance of all emitters", std::span(&described, 1),
+    const Buffer instance = upload_array(gpu, uploader, Purpose::structure_scratch, std::span(&described, 1),
                                          input | Usage::eShaderDeviceAddress);
     uploader.finish();
     Level top;
@@ -101,7 +101,7 @@ void build(const Gpu& gpu, std::vector<shared::vec3> from, EmitterStructure& emi
     top.info.dstAccelerationStructure = *emitters.top;
     const std::uint64_t scratch_bytes = std::max(bottom.sizes.buildScratchSize, top.sizes.buildScratchSize);
     const Buffer scratch =
-        make_buffer(gpu, "building the emitters' acceleration structure", scratch_bytes + gpu.scratch_alignment,
+        make_buffer(gpu, Purpose::structure_scratch, scratch_bytes + gpu.scratch_alignment,
                     Usage::eStorageBuffer | Usage::eShaderDeviceAddress, MemoryKind::device);
     run_commands(gpu, [&](Recorder& recorder) {
         for (Level* level : {&bottom, &top}) {  // the top level reads the bottom level

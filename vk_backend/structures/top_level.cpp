@@ -81,7 +81,7 @@ Buffer upload_instances(const Gpu& gpu, const std::vector<vk::AccelerationStruct
     Uploader uploader(gpu, std::uint64_t{8} << 20U);
     // Instances are aligned to 16 bytes. The address must be valid even if there are no instances.
     const std::vector<vk::AccelerationStructureInstanceKHR> unused(1);
-    Buffer instances = upload_array(gpu, uploader, "instances of acceleration structures",
+    Buffer instances = upload_array(gpu, uploader, Purpose::structure_scratch,
                                     std::span(described.empty() ? unused : described),
                                     Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress);
     uploader.finish();
@@ -89,7 +89,7 @@ Buffer upload_instances(const Gpu& gpu, const std::vector<vk::AccelerationStruct
 }
 
 Buffer make_scratch(const Gpu& gpu, std::uint64_t bytes) {
-    return make_buffer(gpu, "building acceleration structures", bytes + gpu.scratch_alignment,
+    return make_buffer(gpu, Purpose::structure_scratch, bytes + gpu.scratch_alignment,
                        Usage::eStorageBuffer | Usage::eShaderDeviceAddress, MemoryKind::device);
 }
 
@@ -146,7 +146,7 @@ TopLevel build_top_level(const Gpu& gpu, const PackedScene& packed, const Bottom
         vk::AccelerationStructureBuildTypeKHR::eDevice, asked.info, static_cast<std::uint32_t>(top.described.size()));
     top.scratch_bytes = sizes.buildScratchSize;
     top.storage =
-        make_buffer(gpu, "the instances' acceleration structure", sizes.accelerationStructureSize,
+        make_buffer(gpu, Purpose::structures, sizes.accelerationStructureSize,
                     Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress, MemoryKind::device);
     top.structure = gpu.device.createAccelerationStructureKHR({.buffer = *top.storage.handle,
                                                                .size = sizes.accelerationStructureSize,
