@@ -8,6 +8,7 @@ Error::Error(const Error&) = default;
 Error::~Error() = default;
 SettingError::~SettingError() = default;
 NoDevice::~NoDevice() = default;
+OutOfMemory::~OutOfMemory() = default;
 DeviceLost::~DeviceLost() = default;
 Interrupted::~Interrupted() = default;
 

@@ -97,6 +97,8 @@ auto guarded(const Work& work) {
         throw;
     } catch (const core::NoDevice& error) {
         throw NoDevice(error.what());
+    } catch (const core::OutOfMemory& error) {
+        throw OutOfMemory(error.what());
     } catch (const core::DeviceLost& error) {
         throw DeviceLost(error.what());
     } catch (const core::Error& error) {

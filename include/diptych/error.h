@@ -32,6 +32,14 @@ public:
     ~NoDevice() override;
 };
 
+/// The device has no room for what was asked of it. `what()` says what was asked for, what is in use and free, and what
+/// would need less. Where the scene cannot fit, nothing is allocated before.
+class DIPTYCH_EXPORT OutOfMemory : public Error {
+public:
+    using Error::Error;
+    ~OutOfMemory() override;
+};
+
 /// The device was lost while it worked. A film taken before stays whole; the session can only be destroyed.
 class DIPTYCH_EXPORT DeviceLost : public Error {
 public:

@@ -10,6 +10,7 @@ PyObject* error_type;
 PyObject* setting_error_type;
 PyObject* unknown_name_type;
 PyObject* no_device_type;
+PyObject* out_of_memory_type;
 PyObject* device_lost_type;
 PyObject* interrupted_type;
 PyObject* warning_type;
@@ -34,6 +35,8 @@ void translate(std::exception_ptr thrown) {
         PyErr_SetString(unknown_name_type, error.what());
     } catch (const NoDevice& error) {
         PyErr_SetString(no_device_type, error.what());
+    } catch (const OutOfMemory& error) {
+        PyErr_SetString(out_of_memory_type, error.what());
     } catch (const DeviceLost& error) {
         PyErr_SetString(device_lost_type, error.what());
     } catch (const Interrupted& error) {
@@ -63,6 +66,10 @@ void bind_errors(py::module_& module) {
     no_device_type = new_type(module, "NoDevice",
                               "The machine has no device that the backend needs. The message lists what is missing.",
                               py::make_tuple(base));
+    out_of_memory_type = new_type(module, "OutOfMemory",
+                                  "The device has no room for what was asked of it. The message says what would need "
+                                  "less. Also a MemoryError.",
+                                  py::make_tuple(base, py::handle(PyExc_MemoryError)));
     device_lost_type = new_type(module, "DeviceLost",
                                 "The device was lost while it worked. Films taken before stay whole; the session can "
                                 "only be closed.",

@@ -150,3 +150,19 @@ TEST_CASE("Names that a scene lacks, files that are not there and settings out o
     CHECK_THROWS_AS(dp::backend_from("vulcan"), dp::SettingError);
     CHECK_THAT(message_of([] { dp::look_at({1, 1, 1}, {1, 1, 1}); }), !Catch::Contains("--"));
 }
+
+TEST_CASE("A picture larger than any device is refused as out of memory, with the size that would fit") {
+    if (dp::devices().empty()) {
+        SKIP_TEST("no Vulkan device with ray tracing; mesa-vulkan-drivers 24.3 or later brings one");
+    }
+    const dp::Scene scene = small_scene();
+    dp::Settings settings = small_settings();
+    settings.size = {65536, 65536};
+    try {
+        const dp::Session session(scene, {dp::Backend::vulkan}, settings);
+        FAIL("nothing was thrown");
+    } catch (const dp::OutOfMemory& error) {
+        CHECK_THAT(error.what(), Catch::Contains("out of memory: ") && Catch::Contains(" at once: the film ") &&
+                                     Catch::Contains("a `size` of ") && Catch::Contains(" would fit"));
+    }
+}

@@ -78,10 +78,16 @@ def test_a_device_that_is_not_there_is_refused(floor, vulkan):
         dp.Session(floor, backend="vulkan", device="abacus")
 
 
+def test_a_picture_larger_than_any_device_says_what_would_fit(floor, vulkan):
+    with pytest.raises(dp.OutOfMemory, match=r"at once: the film .* `size` of \d+x\d+ would fit"):
+        dp.Session(floor, backend="vulkan", size=(65536, 65536))
+
+
 def test_the_exceptions_form_a_tree():
-    for special in (dp.SettingError, dp.UnknownName, dp.NoDevice, dp.DeviceLost, dp.Interrupted):
+    for special in (dp.SettingError, dp.UnknownName, dp.NoDevice, dp.OutOfMemory, dp.DeviceLost, dp.Interrupted):
         assert issubclass(special, dp.Error)
     assert issubclass(dp.SettingError, ValueError) and issubclass(dp.UnknownName, KeyError)
+    assert issubclass(dp.OutOfMemory, MemoryError)
     assert str(dp.UnknownName("plain text")) == "plain text"
 
 
