@@ -32,7 +32,7 @@ KeptDevice& kept_device() {
 std::shared_ptr<Gpu> keep_device(const VulkanOptions& options) {
     KeptDevice& kept = kept_device();
     const std::lock_guard lock(kept.mutex);
-    if (kept.gpu == nullptr || kept.name != options.device || kept.validation != options.validation) {
+    if (kept.gpu == nullptr || is_lost(*kept.gpu) || kept.name != options.device || kept.validation != options.validation) {
         kept.gpu.reset();
         kept.gpu = open_device(options);
         kept.name = options.device;

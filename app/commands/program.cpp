@@ -25,8 +25,8 @@ constexpr const char* program_examples = R"(Examples:
   diptych render cornell.gltf -o vulkan.exr --backend vulkan --seed 2
   diptych compare cpu.exr vulkan.exr -o difference.png
   diptych COMMAND --help
-Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 no suitable device, 128 + n ended
-by signal n, such as 130 by Ctrl-C)";
+Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 no suitable device, or it was lost, 128 + n ended by
+signal n, such as 130 by Ctrl-C)";
 
 int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
     std::string message = one_line(error.what());
@@ -73,6 +73,9 @@ int run_and_report_errors(int argc, char** argv) {
     try {
         return run_command(argc, argv);
     } catch (const NoDevice& error) {
+        report_error(error.what());
+        return exit_no_device;
+    } catch (const DeviceLost& error) {
         report_error(error.what());
         return exit_no_device;
     } catch (const Error& error) {

@@ -24,6 +24,14 @@ std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& p
     return replacement() ? replacement()(scene, packed, request) : open_renderer(scene, packed, request);
 }
 
+MakeRenderer renderer_maker_of(const RenderRequest& request) {
+    return [request](const Scene& scene, const PackedScene& packed, const RenderSettings& settings) {
+        RenderRequest asked = request;
+        asked.settings = settings;
+        return make_renderer(scene, packed, asked);
+    };
+}
+
 int exit_code_after_validation(int exit_code) {
     if (const std::uint64_t count = close_devices(); count > 0) {
         report_error(fmt::format("validation: the layer had {} message{}", count, count == 1 ? "" : "s"));

@@ -11,14 +11,6 @@ namespace diptych::core::app {
 
 namespace {
 
-MakeRenderer maker_of(const RenderRequest& request) {
-    return [request](const Scene& scene, const PackedScene& packed, const RenderSettings& settings) {
-        RenderRequest asked = request;
-        asked.settings = settings;
-        return make_renderer(scene, packed, asked);
-    };
-}
-
 void report_once(const std::vector<std::string>& lines) {
     static std::mutex mutex;
     static std::set<std::string> reported;
@@ -37,11 +29,11 @@ SessionHooks reporting_hooks() {
 }
 
 Session open_session(const Scene& scene, const RenderRequest& request) {
-    return {scene, request.settings, maker_of(request), reporting_hooks()};
+    return {scene, request.settings, renderer_maker_of(request), reporting_hooks()};
 }
 
 Session open_session(const Scene& scene, const RenderRequest& request, const Moment& moment) {
-    return {scene, request.settings, maker_of(request), moment, reporting_hooks()};
+    return {scene, request.settings, renderer_maker_of(request), moment, reporting_hooks()};
 }
 
 Session open_played(const Scene& scene, RenderRequest request) {

@@ -10,7 +10,7 @@ VerifySide::VerifySide(const SideName& name, const VerifySubject& subject, const
                        const std::vector<std::uint32_t>& frames, const SeedPlan& seeds, std::uint32_t side,
                        std::uint32_t sample_count)
     : name_(name), tile_(settings.tile), seeds_(seeds), side_(side), run_count_(settings.runs),
-      frame_spp_(settings.frame_spp), frames_(frames),
+      frame_spp_(settings.frame_spp), frames_(frames), guard_(subject.device_loss),
       runs_(std::max<std::size_t>(frames.size(), 1), std::vector<RunMeans>(settings.runs)) {
     RenderRequest request = subject.request;
     request.backend = name.backend;
@@ -61,7 +61,7 @@ bool VerifySide::extend(std::uint32_t samples, const std::atomic<bool>& cancel, 
         render_runs(0, samples, cancel, hook);
     } else {
         for (std::size_t i = 0; i < frames_.size() && !cancel; ++i) {
-            session_->show(moments_->at(frames_[i]), seeds_.seed(side_, 0, i));
+            guard_.run(*session_, cancel, [&] { session_->show(moments_->at(frames_[i]), seeds_.seed(side_, 0, i)); });
             render_runs(i, samples, cancel, hook);
         }
     }
@@ -78,22 +78,27 @@ void VerifySide::render_runs(std::size_t frame, std::uint32_t samples, const std
                              const RunHook& hook) {
     for (std::uint32_t run = 0; run < run_count_ && !cancel; ++run) {
         hook(name_, run);
-        session_->restart(seeds_.seed(side_, run, frame));
-        session_->render(spp_, samples, cancel);
-        keep(frame, run, spp_, samples);
+        guard_.run(*session_, cancel, [&] {
+            session_->restart(seeds_.seed(side_, run, frame));
+            session_->render(spp_, samples, cancel);
+            keep(frame, run, spp_, samples);
+        });
     }
 }
 
 void VerifySide::play_chain(std::uint32_t run, std::uint32_t done, const std::atomic<bool>& cancel) {
     const std::uint32_t seed = seeds_.seed(side_, run, done / frame_spp_);
-    for (std::uint32_t frame = 0, judged = 0; judged < frames_.size() && !cancel; ++frame) {
-        session_->show(moments_->at(frame), frame == 0 ? std::optional(seed) : std::nullopt);
-        session_->render(0, frame_spp_, cancel);
-        if (frame == frames_[judged]) {
-            keep(judged, run, done, frame_spp_);
-            ++judged;
+    std::size_t kept = 0;  // of the frames judged, which a chain that begins anew after a loss meets again
+    guard_.run(*session_, cancel, [&] {
+        for (std::uint32_t frame = 0, judged = 0; judged < frames_.size() && !cancel; ++frame) {
+            session_->show(moments_->at(frame), frame == 0 ? std::optional(seed) : std::nullopt);
+            session_->render(0, frame_spp_, cancel);
+            if (frame == frames_[judged] && ++judged > kept) {
+                keep(kept, run, done, frame_spp_);
+                ++kept;
+            }
         }
-    }
+    });
 }
 
 void VerifySide::keep(std::size_t frame, std::uint32_t run, std::uint32_t done, std::uint32_t samples) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/device_loss.h"
 #include "render/film_tiles.h"
 #include "render/frames.h"
 #include "render/seeds.h"
@@ -21,6 +22,7 @@ struct VerifySubject {
     const Scene& scene;  // at rest
     RenderRequest request;  // its settings and sequence, device and threads
     OpenSession open;
+    DeviceLossPolicy device_loss = {};  // a run whose device is lost is rendered again
 };
 
 /// Called before each run of a side, from the thread that renders it.
@@ -37,7 +39,8 @@ public:
 
     /// Adds so many samples a pixel to every run of every frame; false, and as it was before, where `cancel` came in
     /// between. A run of restir's plays chains anew from frame 0, of frame_spp samples a frame and seeds of their own,
-    /// until the frames judged have their samples. Throws Error before that where there are not enough seeds.
+    /// until the frames judged have their samples. Throws Error before that where there are not enough seeds, and
+    /// DeviceLost as the subject has it.
     bool extend(std::uint32_t samples, const std::atomic<bool>& cancel, const RunHook& hook);
 
     const SideName& name() const { return name_; }
@@ -65,6 +68,7 @@ private:
     std::vector<std::uint32_t> frames_;
     std::optional<FrameMoments> moments_;  // of a sequence
     std::unique_ptr<Session> session_;
+    LossGuard guard_;
     std::vector<std::vector<RunMeans>> runs_;  // of each frame judged; one at rest
     std::uint32_t spp_ = 0;
     std::uint64_t nonfinite_ = 0;

@@ -83,15 +83,31 @@ struct Sides {
         return static_cast<std::size_t>(at - wanted.begin());
     }
 
-    /// A graphics device renders its sides while the processor renders the others. False where `cancel` came in between.
+    /// A graphics device renders its sides while the processor renders the others, until one of them has failed. False
+    /// where `cancel` came in between.
     bool extend(std::uint32_t samples, std::uint32_t reference_samples, const std::atomic<bool>& cancel,
                 const RunHook& hook) {
+        std::atomic<bool> failed = false;
+        struct Abandoned {};
+        const RunHook before_run = [&](const SideName& side, std::uint32_t run) {
+            if (failed) {
+                throw Abandoned();
+            }
+            hook(side, run);
+        };
         const auto extend_those = [&](bool on_vulkan) {
-            for (std::size_t i = 0; i < all.size(); ++i) {
-                if ((wanted[i].name.backend == "vulkan") == on_vulkan &&
-                    !all[i].extend(wanted[i].is_reference ? reference_samples : samples, cancel, hook)) {
-                    return false;
+            try {
+                for (std::size_t i = 0; i < all.size(); ++i) {
+                    if ((wanted[i].name.backend == "vulkan") == on_vulkan &&
+                        !all[i].extend(wanted[i].is_reference ? reference_samples : samples, cancel, before_run)) {
+                        return false;
+                    }
                 }
+            } catch (const Abandoned&) {
+                return false;  // what the other thread threw is reported
+            } catch (...) {
+                failed = true;
+                throw;
             }
             return true;
         };

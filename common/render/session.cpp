@@ -150,6 +150,18 @@ void Session::restart(std::uint32_t seed) {
     begin_picture(false);
 }
 
+void Session::renew(MakeRenderer make) {
+    if (make) {
+        make_ = std::move(make);
+    }
+    say("building acceleration structures and pipelines");
+    renderer_.reset();
+    renderer_ = make_(scene(), *packed_, settings_);
+    renderer_->restart(settings_.seed);  // which the pack may not know
+    chained_ = own_ && chains_frames(settings_) && renderer_->capabilities().chains;
+    begin_picture(false);
+}
+
 void Session::next_picture() {
     renderer_->clear_film();
     begin_picture(true);

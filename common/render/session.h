@@ -25,7 +25,7 @@ struct SessionHooks {
 };
 
 /// Used by one thread at a time. A scene is packed at rest first, so that origin and radius depend on no moment. A session
-/// of which a member has thrown can only be destroyed.
+/// of which a member has thrown can only be destroyed, or renewed after DeviceLost.
 class Session {
 public:
     /// A session at rest, for a scene that stays as it is: nothing of it is copied. `scene` must live as long.
@@ -68,6 +68,10 @@ public:
 
     /// Begins a picture with another seed, history gone.
     void restart(std::uint32_t seed);
+
+    /// Makes the renderer anew, by `make` from now on if it is given, at the same moment, with the same settings and
+    /// seed. A picture begins, history gone.
+    void renew(MakeRenderer make = {});
 
     /// Begins the next picture of a chain at the same moment.
     void next_picture();

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "clock.h"
+#include "commands/arguments/device_loss.h"
 #include "commands/command.h"
 #include "commands/converge/charts.h"
 #include "commands/converge/page.h"
@@ -14,6 +15,7 @@
 #include "console/interrupt.h"
 #include "console/report.h"
 #include "console/step_line.h"
+#include "error.h"
 #include "image/atomic_file.h"
 #include "image/image_file.h"
 #include "image/picture_name.h"
@@ -78,7 +80,8 @@ void refuse_to_write_over_inputs(const ConvergeOptions& options, const std::vect
 }
 
 ConvergeSubject plan_subject(const ConvergeOptions& options, const Scene& scene) {
-    ConvergeSubject subject{scene, plan_methods(options), {}, {}, open_requested};
+    ConvergeSubject subject{scene, plan_methods(options), {}, {}, open_requested,
+                            device_loss_policy(options.on_device_lost, false, options.arguments.request)};
     refuse_to_write_over_inputs(options, subject.methods);
     if (reference_is_file(options)) {
         const RenderSettings& settings = options.arguments.request.settings;
@@ -109,6 +112,7 @@ int run_converge(ConvergeOptions options) {
         state.set_load_seconds(load_seconds);
     }
     bool whole = false;
+    std::string lost;  // why the device was
     nlohmann::ordered_json json;
     {
         StepLine line(converge_steps(options, subject.methods.size()));
@@ -116,7 +120,11 @@ int run_converge(ConvergeOptions options) {
         ConvergeMeasurement measurement(options, subject, state, begin);
         {
             InterruptGuard interrupt;
-            whole = measurement.run(interrupt.requested());
+            try {
+                whole = measurement.run(interrupt.requested());
+            } catch (const DeviceLost& error) {
+                lost = error.what();
+            }
         }
         if (const std::optional<ConvergeSummary> summary = measurement.summary()) {
             json = write_report(options, subject.methods, *summary, *measurement.reference(), state);
@@ -130,9 +138,10 @@ int run_converge(ConvergeOptions options) {
         print_json(json);
     }
     if (!whole) {
-        report_error(fmt::format("{}: interrupted; the same command goes on from here", options.folder));
+        report_error(fmt::format("{}: {}; the same command goes on from here", options.folder,
+                                 lost.empty() ? "interrupted" : lost));
     }
-    return whole ? exit_done : interrupt_exit_code();
+    return whole ? exit_done : lost.empty() ? interrupt_exit_code() : exit_no_device;
 }
 
 /// The command line as typed.
@@ -208,6 +217,7 @@ void add_converge(CLI::App& app, Run& run) {
     command->add_flag("--validation", request.validation,
                       "Run Vulkan's validation layers; exit code 1 if they report anything");
     command->add_option("-o,--output", options->folder, "Folder for the results; index.html is the page")->required();
+    add_device_loss_option(*command, options->on_device_lost, false);
     command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(converge_examples);
     command->callback([options, command, &run] {

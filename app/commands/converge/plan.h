@@ -21,6 +21,7 @@ struct ConvergeOptions : ConvergeSettings {
     int page_side = 512;  // of a picture within the page, at most
     std::uint32_t seed = 1;
     bool json = false;
+    std::string on_device_lost = "stop";
     std::string command;  // as typed
 };
 

@@ -30,6 +30,7 @@ struct VerifyOptions : VerifySettings {
     bool still = false;         // or none; else every second one
     std::string output;
     bool json = false;
+    std::string on_device_lost = "stop";
     const CLI::App* command = nullptr;  // as it was typed, for a message that says what to run
 };
 

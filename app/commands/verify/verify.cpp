@@ -10,6 +10,7 @@
 #include "commands/command.h"
 #include "error.h"
 #include "console/output.h"
+#include "commands/arguments/device_loss.h"
 #include "console/interrupt.h"
 #include "settings/names.h"
 #include "console/report.h"
@@ -63,6 +64,9 @@ public:
     /// From any thread.
     void show(const SideName& side, std::uint32_t run) {
         const std::lock_guard lock(mutex_);
+        if (side.backend == "vulkan") {
+            on_device_ = fmt::format("run {} of {} of {}", run + 1, runs_, text_of(side));
+        }
         const double seconds = watch_.seconds();
         if (seconds < next_) {
             return;
@@ -73,9 +77,16 @@ public:
                       seconds, terminal_ ? "\x1b[K" : "\n");
     }
 
+    /// The last run that a Vulkan device was asked for.
+    std::string on_device() {
+        const std::lock_guard lock(mutex_);
+        return on_device_;
+    }
+
 private:
     std::mutex mutex_;
     std::uint32_t runs_;
+    std::string on_device_;
     bool terminal_;
     bool shown_ = false;
     double next_ = 2;
@@ -83,6 +94,7 @@ private:
 };
 
 void check_verify_options(VerifyOptions& options) {
+    device_loss_policy(options.on_device_lost, false, options.arguments.request);
     resolve_frames(options);
     if (options.arguments.size.empty()) {
         options.arguments.size = default_verify_size;
@@ -169,9 +181,16 @@ int run_verify(VerifyOptions options) {
     {
         InterruptGuard interrupt;
         RunLine line(options.runs);
-        const VerifySubject subject{scene, options.arguments.request, open_requested};
-        suite = run_suite(options, subject, pairs, seed, interrupt.requested(),
-                          [&](const SideName& side, std::uint32_t run) { line.show(side, run); });
+        const VerifySubject subject{scene, options.arguments.request, open_requested,
+                                    device_loss_policy(options.on_device_lost, false, options.arguments.request)};
+        try {
+            suite = run_suite(options, subject, pairs, seed, interrupt.requested(),
+                              [&](const SideName& side, std::uint32_t run) { line.show(side, run); });
+        } catch (const DeviceLost& error) {
+            throw DeviceLost(fmt::format("{}: lost its device in {}, there is no verdict; --on-device-lost retry "
+                                         "repeats such a run: {}",
+                                         options.arguments.request.scene, line.on_device(), error.what()));
+        }
     }
     if (!suite) {
         report_error(fmt::format("{}: interrupted before all runs were done; there is no verdict",
@@ -276,6 +295,7 @@ void add_verify(CLI::App& app, Run& run) {
     command->add_flag("--validation", request.validation, "Run Vulkan's validation layers");
     command->add_option("-o,--output", options->output, "Folder for a map and a histogram (SVG) of each pair's p-values");
     command->add_flag("--json", options->json, "Print the results as JSON");
+    add_device_loss_option(*command, options->on_device_lost, false)->excludes(paired);
     add_random_option(*command, *options);
     command->footer(verify_examples);
     options->command = command;

@@ -18,7 +18,7 @@ ConvergeMeasurement::ConvergeMeasurement(const ConvergeSettings& settings, const
                                          ConvergeState& state, const StepHook& begin)
     : settings_(settings), subject_(subject), state_(state), begin_(begin), noted_(subject.methods.size()) {
     for (const Method& method : subject.methods) {
-        runners_.push_back(std::make_unique<MethodRunner>(subject.scene, method, subject.open));
+        runners_.push_back(std::make_unique<MethodRunner>(subject.scene, method, subject.open, subject.device_loss));
     }
 }
 
@@ -65,7 +65,7 @@ bool ConvergeMeasurement::find_reference(const std::atomic<bool>& cancel) {
         reference_ = subject_.given_reference;
         return true;
     }
-    MethodRunner runner(subject_.scene, *subject_.reference, subject_.open);
+    MethodRunner runner(subject_.scene, *subject_.reference, subject_.open, subject_.device_loss);
     const std::uint32_t spp = *std::max_element(limits_.begin(), limits_.end());
     reference_ = render_reference(runner, spp, settings_.maker, state_, cancel, [&](std::uint32_t block) {
         begin_(fmt::format("reference by {}, block {} of {}", runner.method().name, block + 1, reference_blocks));

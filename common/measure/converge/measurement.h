@@ -19,6 +19,7 @@ struct ConvergeSubject {
     std::optional<ReferencePicture> given_reference;
     std::optional<Method> reference;  // where none is given
     OpenSession open;
+    DeviceLossPolicy device_loss = {};  // a run whose device is lost is rendered again
 };
 
 /// Times that the hook of a ConvergeMeasurement is called at most.
@@ -32,7 +33,8 @@ public:
     ConvergeMeasurement(const ConvergeSettings& settings, const ConvergeSubject& subject, ConvergeState& state,
                         const StepHook& begin);
 
-    /// False where `cancel` came before the end. What is finished is kept either way. Throws NoDevice and Error.
+    /// False where `cancel` came before the end. What is finished is kept either way. Throws NoDevice, Error, and
+    /// DeviceLost as the subject has it.
     bool run(const std::atomic<bool>& cancel);
 
     /// What the results so far say; nothing where there are none yet.

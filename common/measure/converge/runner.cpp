@@ -47,6 +47,26 @@ void MethodRunner::warm_up(Entry& entry, const std::atomic<bool>& cancel) {
 
 bool MethodRunner::run(std::uint32_t seed, const std::vector<std::uint32_t>& counts, const std::atomic<bool>& cancel,
                        const Checkpoint& checkpoint) {
+    bool whole = false;
+    std::uint32_t told = 0;
+    const Checkpoint once = [&](std::uint32_t spp, const Film& film, double device_seconds, double wall_seconds) {
+        if (spp > told) {
+            checkpoint(spp, film, device_seconds, wall_seconds);
+            told = spp;
+        }
+    };
+    guard_.run(cancel, [&] { whole = render_run(seed, counts, cancel, once); }, [&] { entries_.clear(); });
+    return whole;
+}
+
+std::uint32_t MethodRunner::samples_within(double seconds, const std::atomic<bool>& cancel) {
+    std::uint32_t fits = 0;
+    guard_.run(cancel, [&] { fits = count_samples(seconds, cancel); }, [&] { entries_.clear(); });
+    return fits;
+}
+
+bool MethodRunner::render_run(std::uint32_t seed, const std::vector<std::uint32_t>& counts,
+                              const std::atomic<bool>& cancel, const Checkpoint& checkpoint) {
     double device_seconds = 0, wall_seconds = 0;
     std::uint32_t done = 0;
     bool fresh = true;
@@ -73,7 +93,7 @@ bool MethodRunner::run(std::uint32_t seed, const std::vector<std::uint32_t>& cou
     return true;
 }
 
-std::uint32_t MethodRunner::samples_within(double seconds, const std::atomic<bool>& cancel) {
+std::uint32_t MethodRunner::count_samples(double seconds, const std::atomic<bool>& cancel) {
     Entry& at_work = entry(1);
     warm_up(at_work, cancel);
     std::uint32_t fits = 1;

@@ -9,6 +9,7 @@
 #include "measure/converge/method.h"
 #include "measure/converge/state.h"
 #include "measure/open_session.h"
+#include "render/device_loss.h"
 
 namespace diptych::core {
 
@@ -20,15 +21,16 @@ using Checkpoint = std::function<void(std::uint32_t spp, const Film& film, doubl
 class MethodRunner {
 public:
     /// `scene` must live as long.
-    MethodRunner(const Scene& scene, Method method, OpenSession open)
-        : scene_(scene), method_(std::move(method)), open_(std::move(open)) {}
+    MethodRunner(const Scene& scene, Method method, OpenSession open, const DeviceLossPolicy& device_loss = {})
+        : scene_(scene), method_(std::move(method)), open_(std::move(open)), guard_(device_loss) {}
 
     const Method& method() const { return method_; }
     /// These build it where it is not.
     std::string device();
     MethodSetup setup();
 
-    /// Calls back at each of the counts, which ascend; false where `cancel` came in between.
+    /// Calls back at each of the counts, which ascend; false where `cancel` came in between. After a loss of the device
+    /// the run begins anew, without calling back twice for one count.
     bool run(std::uint32_t seed, const std::vector<std::uint32_t>& counts, const std::atomic<bool>& cancel,
              const Checkpoint& checkpoint);
 
@@ -43,12 +45,16 @@ private:
     };
 
     Entry& entry(std::uint32_t sample_count);
+    bool render_run(std::uint32_t seed, const std::vector<std::uint32_t>& counts, const std::atomic<bool>& cancel,
+                    const Checkpoint& checkpoint);
+    std::uint32_t count_samples(double seconds, const std::atomic<bool>& cancel);
     /// Renders a few samples that count for nothing, once: devices clock up, dispatches find their size.
     static void warm_up(Entry& entry, const std::atomic<bool>& cancel);
 
     const Scene& scene_;
     Method method_;
     OpenSession open_;
+    LossGuard guard_;
     std::map<std::uint32_t, Entry> entries_;  // by the count that it is laid out for; 0 where that does not matter
 };
 

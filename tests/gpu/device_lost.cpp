@@ -1,0 +1,108 @@
+// A device that is lost while it renders: what is said, what is left, and how a picture goes on.
+#include "error.h"
+#include "generate/generate.h"
+#include "gpu_fixture.h"
+#include "render/lasting_picture.h"
+#include "render/merge_films.h"
+#include "render/session.h"
+#include "renderer/path_renderer.h"
+
+namespace diptych::core::tests {
+namespace {
+
+const std::atomic<bool> never = false;
+
+RenderSettings settings_of(Integrator integrator) {
+    RenderSettings settings;
+    settings.width = 20;
+    settings.height = 15;
+    settings.max_depth = 2;
+    settings.seed = 9;
+    settings.integrator = integrator;
+    settings.standard_error = settings.first_hit_layers = true;
+    return settings;
+}
+
+bool same_film(const Film& a, const Film& b) {
+    return same_bytes(a.pixels, b.pixels) && same_bytes(a.moments, b.moments) && same_bytes(a.first_hits, b.first_hits);
+}
+
+/// Loses the device at the submission after `passing`.
+void lose_after(Gpu& gpu, int passing) {
+    gpu.faults.submission = [left = std::make_shared<std::atomic<int>>(passing)] { return (*left)-- == 0; };
+}
+
+/// Opens a device for every renderer, as after a loss, and counts them.
+struct Devices {
+    std::vector<std::shared_ptr<Gpu>> opened;
+
+    MakeRenderer maker() {
+        return [this](const Scene&, const PackedScene& packed, const RenderSettings&) {
+            opened.push_back(open_test_gpu());
+            return std::make_unique<PathRenderer>(opened.back(), packed);
+        };
+    }
+};
+
+}  // namespace
+
+TEST_CASE("A device that is lost at any submission of a picture says so and leaves nothing behind") {
+    NEED_VULKAN();
+    const PackedScene packed = generated_scene("cornell", settings_of(Integrator::path));
+    const int passing = GENERATE(0, 3, 8, 12);
+    const std::shared_ptr<Gpu> gpu = open_test_gpu();
+    lose_after(*gpu, passing);
+    const auto render = [&] {
+        PathRenderer renderer(gpu, packed);
+        for (std::uint32_t sample = 0; sample < 64; ++sample) {
+            renderer.render(sample, 1, never);
+        }
+    };
+    CHECK_THROWS_AS(render(), DeviceLost);
+    CHECK(is_lost(*gpu));
+    BytesByPurpose bytes = gpu->memory_use->bytes();
+    bytes[static_cast<std::size_t>(Purpose::pipelines)] = 0;  // the device's own
+    CHECK(text_of(bytes) == "nothing");
+    CHECK_THROWS_AS(render(), DeviceLost);  // it stays lost
+    check_no_validation_messages();
+}
+
+TEST_CASE("A picture on a device that is opened anew has the samples of one that was not lost") {
+    NEED_VULKAN();
+    const Scene scene = generate_scene("cornell").scene;
+    const RenderSettings settings = settings_of(GENERATE(Integrator::path, Integrator::restir));
+    const bool chains = chains_frames(settings);
+    Devices devices;
+    Session whole(scene, settings, devices.maker());
+    whole.render(0, 4, never);
+    Film expected = whole.film();
+    if (chains) {
+        whole.render(4, 4, never);
+        expected = whole.film();
+    } else {
+        whole.restart(settings.seed);
+        whole.render(4, 4, never);
+        merge_films(whole.film(), expected);
+    }
+
+    Session session(scene, settings, devices.maker());
+    DeviceLossPolicy policy;
+    policy.choice = OnDeviceLost::retry;
+    policy.first_pause = 0;
+    LossGuard guard(policy);
+    LastingPicture picture(session, guard, never, {});
+    picture.render(0, 4, never);
+    CHECK(picture.film().pixels[0].samples == 4);
+    lose_after(*devices.opened.back(), 0);
+    picture.render(4, 4, never);
+    CHECK(guard.losses() == 1);
+    CHECK(devices.opened.size() == 3);
+    CHECK(same_film(picture.film(), expected));
+    lose_after(*devices.opened.back(), 0);  // while the film is read
+    CHECK(same_film(picture.film(), expected));
+    CHECK(guard.losses() == 2);
+    CHECK(picture.device() == whole.renderer().device());  // one device, so nothing is said of the loss
+    check_no_validation_messages();
+}
+
+}  // namespace diptych::core::tests
