@@ -4,6 +4,7 @@
 #include "image/layered_image.h"
 #include "process.h"
 #include "render/film_file.h"
+#include "skipping.h"
 
 using namespace diptych::core;
 using namespace diptych::core::tests;

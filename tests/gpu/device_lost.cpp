@@ -23,10 +23,6 @@ RenderSettings settings_of(Integrator integrator) {
     return settings;
 }
 
-bool same_film(const Film& a, const Film& b) {
-    return same_bytes(a.pixels, b.pixels) && same_bytes(a.moments, b.moments) && same_bytes(a.first_hits, b.first_hits);
-}
-
 /// Loses the device at the submission after `passing`.
 void lose_after(Gpu& gpu, int passing) {
     gpu.faults.submission = [left = std::make_shared<std::atomic<int>>(passing)] { return (*left)-- == 0; };

@@ -39,6 +39,12 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
+/// Bit for bit.
+inline bool same_film(const Film& a, const Film& b) {
+    return a.width == b.width && a.height == b.height && same_bytes(a.pixels, b.pixels) &&
+           same_bytes(a.moments, b.moments) && same_bytes(a.first_hits, b.first_hits);
+}
+
 /// A generated scene, packed.
 PackedScene generated_scene(const std::string& name, const RenderSettings& settings);
 

@@ -53,10 +53,6 @@ std::string refusal_of(const std::function<void()>& work) {
     return "nothing was thrown";
 }
 
-bool same_film(const Film& a, const Film& b) {
-    return same_bytes(a.pixels, b.pixels) && same_bytes(a.moments, b.moments) && same_bytes(a.first_hits, b.first_hits);
-}
-
 }  // namespace
 
 TEST_CASE("Out of memory: each purpose is named, and nothing is left behind") {

@@ -26,11 +26,6 @@ Film picture_of(Renderer& renderer) {
     return renderer.film();
 }
 
-bool same_film(const Film& a, const Film& b) {
-    return a.width == b.width && a.height == b.height && same_bytes(a.pixels, b.pixels) &&
-           same_bytes(a.moments, b.moments) && same_bytes(a.first_hits, b.first_hits);
-}
-
 /// One step of a walk: what it changes of the settings and of the scene's surroundings.
 struct Change {
     const char* name;

@@ -159,7 +159,7 @@ TEST_CASE("A picture larger than any device is refused as out of memory, with th
     dp::Settings settings = small_settings();
     settings.size = {65536, 65536};
     try {
-        const dp::Session session(scene, {dp::Backend::vulkan}, settings);
+        const dp::Session session(scene, dp::BackendChoice{.backend = dp::Backend::vulkan, .device = "", .threads = 0, .validation = false}, settings);
         FAIL("nothing was thrown");
     } catch (const dp::OutOfMemory& error) {
         CHECK_THAT(error.what(), Catch::Contains("out of memory: ") && Catch::Contains(" at once: the film ") &&

@@ -105,17 +105,18 @@ std::string text_in(const std::filesystem::path& path) {
 TEST_CASE("render: a picture whose device was lost is rendered to its end, or what there is is saved with exit code 3") {
     const TemporaryFolder folder;
     const auto render = [&](int call, const std::string& name, const std::string& choice) {
-        return run_losing(call, on_vulkan("render", cornell, {"--backend", "vulkan", "--spp", "40", "-o", folder.file(name),
+        return run_losing(call, on_vulkan("render", cornell, {"--backend", "vulkan", "--spp", "40", "-o", (folder / name).string(),
                                                               "--on-device-lost", choice}));
     };
     REQUIRE(render(0, "whole.exr", "stop") == 0);
     CHECK(render(3, "retried.exr", "retry") == 0);
-    CHECK(same_color(folder.file("retried.exr"), folder.file("whole.exr")));
+    CHECK(same_color((folder / "retried.exr").string(), (folder / "whole.exr").string()));
     CHECK(render(3, "finished.exr", "cpu") == 0);
-    CHECK(same_color(folder.file("finished.exr"), folder.file("whole.exr")));
-    CHECK(read_image(folder.file("finished.exr")).metadata.at("spp") == "40");
+    CHECK(same_color((folder / "finished.exr").string(), (folder / "whole.exr").string()));
+    CHECK(read_image((folder / "finished.exr").string()).metadata.at("spp") == "40");
     CHECK(render(3, "stopped.exr", "stop") == 3);
-    CHECK_FALSE(std::filesystem::exists(folder.file("stopped.exr")));  // lost before the film was read for the first time
+    CHECK_FALSE(std::filesystem::exists((folder / "stopped.part.exr").string()));
+    CHECK_FALSE(std::filesystem::exists((folder / "stopped.exr").string()));  // lost before the film was read for the first time
     CHECK(render(0, "unknown.exr", "never") == 2);
 }
 
@@ -131,7 +132,7 @@ TEST_CASE("render: frames of a sequence whose device was lost are those of one t
     REQUIRE(render(4, "retried") == 0);
     for (const char* frame : {".0000.exr", ".0001.exr", ".0002.exr"}) {
         INFO(integrator << " " << frame);
-        CHECK(same_color(folder.file("whole") + frame, folder.file("retried") + frame));
+        CHECK(same_color((folder / "whole").string() + frame, (folder / "retried").string() + frame));
     }
 }
 
@@ -144,7 +145,7 @@ TEST_CASE("verify: a run that lost its device is rendered again, or ends the ver
     };
     /// Name and text of all figures of a verification that was to retry. They show the p-values of all tiles.
     const auto figures_of = [&](int call, std::vector<std::string> more) {
-        const std::string figures = folder.file("figures");
+        const std::string figures = (folder / "figures").string();
         std::filesystem::remove_all(figures);
         more.insert(more.end(), {"--on-device-lost", "retry", "-o", figures});
         CHECK(verify(call, more) == 0);
@@ -173,11 +174,11 @@ TEST_CASE("converge: a run that lost its device is rendered again, or the same c
     const auto converge = [&](int call, const std::string& name, const std::string& choice) {
         return run_losing(call, on_vulkan("converge", cornell,
                                           {"--methods", "vulkan:path", "--reference", "cpu:direct", "--spp-max", "4", "--runs",
-                                           "2", "-o", folder.file(name), "--on-device-lost", choice}));
+                                           "2", "-o", (folder / name).string(), "--on-device-lost", choice}));
     };
     const auto errors = [&](const std::string& name) {
         std::vector<std::string> rows;  // without the times
-        std::stringstream text(text_in(folder.file(name) + "/results.jsonl"));
+        std::stringstream text(text_in((folder / name).string() + "/results.jsonl"));
         for (std::string line; std::getline(text, line);) {
             nlohmann::json row = nlohmann::json::parse(line);
             row.erase("device_seconds");
