@@ -126,7 +126,7 @@ TEST_CASE("render: frames of a sequence whose device was lost are those of one t
     const auto render = [&](int call, const std::string& name) {
         return run_losing(call, on_vulkan("render", moving_light,
                                           {"--backend", "vulkan", "--spp", "2", "--frames", "3", "--integrator", integrator,
-                                           "-o", folder.file(name + ".exr"), "--on-device-lost", "retry"}));
+                                           "-o", (folder / (name + ".exr")).string(), "--on-device-lost", "retry"}));
     };
     REQUIRE(render(0, "whole") == 0);
     REQUIRE(render(4, "retried") == 0);
