@@ -110,7 +110,7 @@ TEST_CASE("of two clips for one node the first plays with one warning, or the on
     CHECK(times_in(warning, render_leniently(folder, scene).err) == 0);  // shown at rest
     CHECK(times_in(warning, render_leniently(folder, scene, {"--frames", "2"}).err) == 1);
     for (const std::string clip : {"idle", "1"}) {
-        const ProcessResult chosen = render_leniently(folder, scene, {"--frames", "2", "--clip", clip, "--strict"});
+        const ProcessResult chosen = render_leniently(folder, scene, {"--frames", "2", "--clip", clip, "--strict", "--overwrite"});
         INFO(chosen.err);
         CHECK(chosen.exit_code == 0);
         CHECK(times_in(warning, chosen.err) == 0);

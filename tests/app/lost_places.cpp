@@ -88,7 +88,7 @@ TEST_CASE("a folder that vanishes while a render works costs neither its samples
     const ProcessResult result = process.finish();
     CHECK(result.exit_code == 128 + SIGTERM);
     CHECK(contains(result.err, "cannot write: the folder '" + folder.file("gone") + "' does not exist"));
-    CHECK(read_image(folder.file("other/a.exr")).metadata.at("interrupted") == "yes");
+    CHECK(read_image(folder.file("other/a.part.exr")).metadata.at("interrupted") == "yes");
 }
 
 TEST_CASE("ulimit -f is an error with a reason, not a death", "[app]") {

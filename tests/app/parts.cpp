@@ -12,7 +12,7 @@ using namespace diptych::core::tests;
 namespace {
 
 std::vector<std::string> render(const std::string& scene, const std::string& out, const std::vector<std::string>& more) {
-    return with({"render", scene, "-o", out, "--size", "24x16", "--threads", "1"}, more);
+    return with({"render", scene, "-o", out, "--size", "24x16"}, more);
 }
 
 void check_same_picture(const std::string& a, const std::string& b) {
@@ -90,7 +90,7 @@ TEST_CASE("merge names the part that does not belong, and the samples that are m
     refuse({first, part("depth.exr", {"--samples", "2:4", "--max-depth", "3"})}, {"depth.exr", "max_depth is 8 and 3"});
     refuse({first, part("plain.exr", {"--spp", "2"})}, {"plain.exr", "--samples"});
     refuse({first, part("layers.exr", {"--samples", "2:4", "--no-layers"})}, {"layers.exr", "first_hit_layers"});
-    const std::string other = generate_scene(folder, "spheres");
+    const std::string other = generate_scene(folder, "furnace");
     const ProcessResult elsewhere =
         run_diptych(folder, render(other, folder.file("other.exr"), {"--samples", "2:4"}));
     REQUIRE(elsewhere.exit_code == 0);

@@ -99,7 +99,7 @@ TEST_CASE("a viewer that reads 4 kB in half a second holds up neither --time nor
     interrupted.send(SIGINT);
     CHECK(interrupted.finish().exit_code == 128 + SIGINT);
     CHECK(stopping.seconds() < 5);
-    for (const char* name : {"timed.exr", "interrupted.exr"}) {
+    for (const char* name : {"timed.exr", "interrupted.part.exr"}) {
         CHECK(read_image(folder.file(name)).color.width == 800);
     }
 }

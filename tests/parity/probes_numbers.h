@@ -166,8 +166,10 @@ FN void probe_exact_digits(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
 
 FN void probe_exact_sums(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     ExactSum s = empty_exact_sum();
-    exact_add(s, abs(p.vertex));
-    exact_add_square(s, p.radiance);
+    vec3 x = abs(p.vertex);
+    bool finite = !is_bad_sample(x) && !is_bad_sample(p.radiance);
+    exact_add(s, finite ? x : vec3(0.0f, 0.0f, 0.0f));
+    exact_add_square(s, finite ? p.radiance : vec3(0.0f, 0.0f, 0.0f));
     raise_base(s, 3 + int(p.words.x & 3u));
     put_exact_sum(o, s);
 }
