@@ -8,6 +8,7 @@
 #include "error.h"
 #include "image/atomic_file.h"
 #include "image/image_library.h"
+#include "threads.h"
 
 namespace diptych::core {
 namespace {
@@ -81,11 +82,14 @@ void write_exr_channels(const fs::path& path, const Image& image, const std::vec
 std::vector<unsigned char> png_bytes(const fs::path& path, const Image& display_values) {
     require_shape(path, display_values, display_values.channels == 1 || display_values.channels == 3);
     ByteImage codes{display_values.width, display_values.height, display_values.channels, {}};
-    codes.data.reserve(display_values.data.size());
-    for (const float value : display_values.data) {
-        const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
-        codes.data.push_back(static_cast<std::uint8_t>(std::lround(clamped * 255.0f)));
-    }
+    codes.data.resize(display_values.data.size());
+    in_parts(codes.data.size(), [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const float value = display_values.data[i];
+            const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+            codes.data[i] = static_cast<std::uint8_t>(std::lround(clamped * 255.0f));
+        }
+    });
     return with_library(path, [&](const ImageLibrary& library) { return library.encode_png(codes, true); });
 }
 

@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "image/oiio/entry.h"
+#include "threads.h"
 
 namespace diptych::core {
 namespace {
@@ -14,7 +15,12 @@ constexpr const char* file_name = "libdiptych_images.so";
     throw Error(std::string(file_name) + ", which reads and writes pictures, cannot be loaded: " + reason);
 }
 
+/// Libraries behind OpenImageIO start threads while they are loaded, some a fixed number and some one a core, and abort
+/// the process where they cannot.
+constexpr unsigned fixed_threads = 4;
+
 const ImageLibrary& load() {
+    require_threads(fixed_threads + machine_threads());
     void* library = dlopen(file_name, RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr) {
         fail(dlerror());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "error.h"
+#include "threads.h"
 
 namespace diptych::core {
 namespace {
@@ -98,12 +99,15 @@ void write_exr(const std::filesystem::path& path, const LayeredImage& layers, co
         names.insert(names.end(), part.names->begin(), part.names->end());
     }
     Image all = make_image(layers.color.width, layers.color.height, static_cast<int>(names.size()));
-    size_t channel = 0;
-    for (const Part& part : parts) {
-        for (size_t source = 0; source < part.names->size(); ++source) {
-            copy_channel(*part.image, source, all, channel++);
+    in_parts(all.pixel_count(), [&](size_t begin, size_t end) {
+        float* to = all.data.data() + begin * names.size();
+        for (size_t pixel = begin; pixel < end; ++pixel) {
+            for (const Part& part : parts) {
+                const size_t channels = part.names->size();
+                to = std::copy_n(part.image->data.data() + pixel * channels, channels, to);
+            }
         }
-    }
+    });
 
     std::map<std::string, std::string> attributes;
     for (const auto& [name, value] : layers.metadata) {

@@ -1,5 +1,6 @@
 #include "image/temporary_file.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -18,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t longest_write = std::size_t{32} << 20U;
 constexpr std::size_t longest_stem = 180;  // leaves room for the rest of the name, within the 255 bytes of most disks
 
 fs::path folder_of(const fs::path& file) {
@@ -89,7 +91,7 @@ TemporaryFile::~TemporaryFile() {
 
 void TemporaryFile::write(std::string_view bytes) {
     while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        const ssize_t written = ::write(descriptor_, bytes.data(), std::min(bytes.size(), longest_write));
         if (written < 0 && errno == EINTR) {
             continue;
         }
@@ -97,6 +99,8 @@ void TemporaryFile::write(std::string_view bytes) {
             fail_to_write(target_, written < 0 ? reason_of(errno, target_) : "nothing could be written");
         }
         bytes.remove_prefix(static_cast<std::size_t>(written));
+        // The disk begins while the rest is copied, so that `sync` waits less. No matter where the system cannot.
+        ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);
     }
 }
 

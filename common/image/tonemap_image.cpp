@@ -4,6 +4,7 @@
 #include <string>
 
 #include "error.h"
+#include "threads.h"
 #include "film/tonemap.h"
 
 namespace diptych::core {
@@ -53,15 +54,17 @@ Image tonemapped(const Image& linear_rgb, ToneMap op, float exposure_ev) {
     }
     const float exposure = std::exp2(exposure_ev);
     Image display = linear_rgb;
-    for (size_t i = 0; i + 2 < display.data.size(); i += 3) {
-        const shared::vec3 radiance(display.data[i] * exposure, display.data[i + 1] * exposure,
-                                    display.data[i + 2] * exposure);
-        const shared::vec3 mapped = shared::tonemap(static_cast<uint32_t>(op), radiance);
-        const shared::vec3 encoded = shared::srgb_encode(mapped);
-        display.data[i] = encoded.x;
-        display.data[i + 1] = encoded.y;
-        display.data[i + 2] = encoded.z;
-    }
+    in_parts(display.pixel_count(), [&](size_t begin, size_t end) {
+        for (size_t i = 3 * begin; i < 3 * end; i += 3) {
+            const shared::vec3 radiance(display.data[i] * exposure, display.data[i + 1] * exposure,
+                                        display.data[i + 2] * exposure);
+            const shared::vec3 mapped = shared::tonemap(static_cast<uint32_t>(op), radiance);
+            const shared::vec3 encoded = shared::srgb_encode(mapped);
+            display.data[i] = encoded.x;
+            display.data[i + 1] = encoded.y;
+            display.data[i + 2] = encoded.z;
+        }
+    });
     return display;
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "render/film_statistics.h"
+#include "threads.h"
 
 namespace diptych::core {
 
@@ -21,12 +22,14 @@ void develop_first_hits(const Film& film, LayeredImage& layers) {
     layers.albedo = make_image(film.width, film.height, channels);
     layers.normal = make_image(film.width, film.height, channels);
     layers.depth = make_image(film.width, film.height, 1);
-    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        const MeanFirstHit means = mean_first_hit(film.pixels[i], film.first_hits[i]);
-        store(*layers.albedo, i, means.albedo);
-        store(*layers.normal, i, means.normal);
-        layers.depth->data[i] = static_cast<float>(means.depth);
-    }
+    in_parts(film.pixels.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const MeanFirstHit means = mean_first_hit(film.pixels[i], film.first_hits[i]);
+            store(*layers.albedo, i, means.albedo);
+            store(*layers.normal, i, means.normal);
+            layers.depth->data[i] = static_cast<float>(means.depth);
+        }
+    });
 }
 
 }  // namespace
@@ -55,12 +58,14 @@ LayeredImage develop(const Film& film) {
     if (!film.moments.empty()) {
         layers.standard_error = make_image(film.width, film.height, channels);
     }
-    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        store(layers.color, i, pixel_mean(film.pixels[i]));
-        if (layers.standard_error) {
-            store(*layers.standard_error, i, pixel_standard_error(film.pixels[i], film.moments[i]));
+    in_parts(film.pixels.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            store(layers.color, i, pixel_mean(film.pixels[i]));
+            if (layers.standard_error) {
+                store(*layers.standard_error, i, pixel_standard_error(film.pixels[i], film.moments[i]));
+            }
         }
-    }
+    });
     if (!film.first_hits.empty()) {
         develop_first_hits(film, layers);
     }

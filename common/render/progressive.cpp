@@ -45,11 +45,12 @@ std::uint32_t next_batch(const ProgressiveTarget& target, std::uint32_t done, do
 }
 
 /// The renderer's film with the samples that were taken before.
-Film whole_film(const Renderer& renderer, const Film* base) {
-    Film film = renderer.film();
-    if (base != nullptr) {
-        merge_films(*base, film);
+std::shared_ptr<const Film> whole_film(const Renderer& renderer, const Film* base) {
+    if (base == nullptr) {
+        return renderer.film_in_place();
     }
+    const auto film = std::make_shared<Film>(renderer.film());
+    merge_films(*base, *film);
     return film;
 }
 
@@ -63,7 +64,8 @@ public:
         if (begin < next_) {
             return;
         }
-        const Film film = whole_film(renderer, hooks.base);
+        const std::shared_ptr<const Film> kept = whole_film(renderer, hooks.base);
+        const Film& film = *kept;
         progress.relmse = estimated_relmse(film);
         progress.rays_per_second = (static_cast<double>(film_totals(film).rays) - base_rays) / progress.seconds;
         if (hooks.film) {
@@ -90,7 +92,7 @@ public:
         if (spp < look_at()) {
             return false;
         }
-        const std::optional<double> relmse = estimated_relmse(whole_film(renderer, base));
+        const std::optional<double> relmse = estimated_relmse(*whole_film(renderer, base));
         if (!relmse) {
             throw Error("the error has no estimate: no standard errors are kept");
         }
@@ -115,7 +117,8 @@ private:
 ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarget& target,
                                        const std::atomic<bool>& cancel, const ProgressiveHooks& hooks) {
     const std::function<double()> now = hooks.now ? hooks.now : now_seconds;
-    const Film before = renderer.film();
+    const std::size_t pixels = renderer.film_in_place()->pixels.size();
+    const std::uint32_t samples_before = samples_of_every_pixel(*renderer.film_in_place());
     FilmWatch watch(now);
     ErrorTarget error(target.relmse, target.look_at);
     const std::uint32_t base_spp = hooks.base == nullptr ? 0 : samples_of_every_pixel(*hooks.base);
@@ -153,7 +156,7 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
             progress.seconds = result.seconds;
             const double until_error = std::max(0.0, (error.needed() - progress.spp) * sample_seconds);
             progress.eta_seconds = std::min({until_spp, until_time, until_error});
-            progress.samples_per_second = static_cast<double>(before.pixels.size()) / sample_seconds;
+            progress.samples_per_second = static_cast<double>(pixels) / sample_seconds;
             watch.look(renderer, base_rays, progress, hooks);
             hooks.progress(progress);
         }
@@ -161,7 +164,7 @@ ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarg
             return result;
         }
     }
-    result.spp = samples_of_every_pixel(renderer.film()) - samples_of_every_pixel(before);
+    result.spp = samples_of_every_pixel(*renderer.film_in_place()) - samples_before;
     result.interrupted = target.spp == 0 || result.spp < target.spp;
     return result;
 }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -102,6 +103,9 @@ public:
 
     /// A copy of what has been accumulated.
     virtual Film film() const = 0;
+
+    /// The same without the copy where the backend has the film in this memory. Valid until the film changes.
+    virtual std::shared_ptr<const Film> film_in_place() const { return std::make_shared<const Film>(film()); }
 
     /// Measures `samples` samples a pixel, leaving the film alone.
     virtual TraversalBench bench_traversal(std::uint32_t samples) = 0;

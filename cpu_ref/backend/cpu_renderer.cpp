@@ -92,6 +92,7 @@ public:
     std::vector<PassTime> pass_times() const override { return passes_; }
     void watch_reservoirs(ReservoirHook hook) override { hook_ = std::move(hook); }
     Film film() const override { return film_; }
+    std::shared_ptr<const Film> film_in_place() const override { return {std::shared_ptr<void>(), &film_}; }
     TraversalBench bench_traversal(std::uint32_t samples) override;
 
     std::vector<RecordedPath> record_paths(std::span<const shared::PathQuery> queries,

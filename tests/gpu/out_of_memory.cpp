@@ -111,8 +111,8 @@ TEST_CASE("With little memory there are fewer paths in flight, less staging and 
             most_staging = bytes <= 64 * kilobyte ? std::max(most_staging, bytes) : most_staging;
             return bytes > 64 * kilobyte;
         case Purpose::readback:
-            most_readback = bytes <= 64 * kilobyte ? std::max(most_readback, bytes) : most_readback;
-            return bytes > 64 * kilobyte;
+            most_readback = bytes <= 128 * kilobyte ? std::max(most_readback, bytes) : most_readback;
+            return bytes > 128 * kilobyte;
         case Purpose::structures:
             return ++structures == 1;  // the batch of all meshes
         default:
@@ -157,7 +157,7 @@ TEST_CASE("A picture too large for the device is refused before anything is allo
         settings.standard_error = settings.first_hit_layers = layers;
         return generated_scene("cornell", settings);
     };
-    const std::string refusal = refusal_of([&] { render_all(gpu, packed_at(400, true)); });
+    const std::string refusal = refusal_of([&] { render_all(gpu, packed_at(300, true)); });
     INFO(refusal);
     CHECK(allocations == 0);
     CHECK(refusal.find(" at once: the film ") != std::string::npos);
@@ -167,12 +167,12 @@ TEST_CASE("A picture too large for the device is refused before anything is allo
     REQUIRE(std::regex_search(refusal, found, std::regex("a `size` of ([0-9]+)x([0-9]+) would fit")));
     const int side = std::stoi(found[1]);
     CHECK(side > 200);
-    const std::uint32_t features = packed_at(400, true).features;
+    const std::uint32_t features = packed_at(300, true).features;
     // One more pixel a side would not fit.
     CHECK_FALSE(refusal_of([&] { require_memory(*gpu, packed_at(side + 1, true), {}); }) == "nothing was thrown");
     CHECK(refusal_of([&] { require_memory(*gpu, packed_at(side, true), {}); }) == "nothing was thrown");
-    CHECK(refusal_of([&] { require_memory(*gpu, packed_at(400, false), {}); }) == "nothing was thrown");
-    CHECK(film_bytes(std::uint64_t{400} * 400, features) < (std::uint64_t{24} << 20U));  // the copy on the host counts too
+    CHECK(refusal_of([&] { require_memory(*gpu, packed_at(300, false), {}); }) == "nothing was thrown");
+    CHECK(film_bytes(std::uint64_t{300} * 300, features) < (std::uint64_t{24} << 20U));  // the copy on the host counts too
     check_no_validation_messages();
 }
 

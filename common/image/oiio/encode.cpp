@@ -13,7 +13,8 @@ namespace {
 
 ImageLibrary::Bytes encode(const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                            const void* pixels) {
-    OIIO::Filesystem::IOVecOutput memory;
+    ImageLibrary::Bytes bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     if (!output) {
         fail_by_library(OIIO::geterror());
@@ -24,7 +25,7 @@ ImageLibrary::Bytes encode(const std::string& format, const OIIO::ImageSpec& spe
     if (!output->open("memory." + format, spec) || !output->write_image(type, pixels) || !output->close()) {
         fail_by_library(output->geterror());
     }
-    return memory.buffer();
+    return bytes;
 }
 
 /// The floats' bits and the words, pixel by pixel.
