@@ -3,6 +3,7 @@
 #include "backend/cpu_renderer.h"
 #include "error.h"
 #include "oracle_renderer/oracle_renderer.h"
+#include "threads.h"
 #if DIPTYCH_VULKAN
 #include <mutex>
 
@@ -49,6 +50,8 @@ std::vector<std::string> backend_names() {
 }
 
 std::unique_ptr<Renderer> open_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request) {
+    // This thread works too.
+    require_threads(request.threads > 0 ? static_cast<unsigned>(request.threads) - 1 : machine_threads() - 1);
     if (request.backend == "oracle") {
         return make_oracle_renderer(scene, request.settings, oracle_mode_from_name(request.oracle_mode),
                                     request.threads);
