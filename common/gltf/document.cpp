@@ -7,15 +7,13 @@
 
 #include "error.h"
 #include "gltf/bytes.h"
+#include "gltf/parse.h"
 #include "gltf/schema.h"
 
 namespace diptych::core::gltf {
 namespace {
 
 using ParsedJson = nlohmann::json;
-
-// Far deeper than any glTF, and shallow enough for a parser that recurses.
-constexpr int max_json_depth = 128;
 
 constexpr std::array<const char*, 9> supported_extensions{
     "EXT_texture_webp",  "KHR_animation_pointer",  "KHR_lights_punctual", "KHR_materials_emissive_strength",
@@ -34,24 +32,6 @@ std::string one_line(std::string text) {
         text.pop_back();
     }
     return text;
-}
-
-ParsedJson parse_json(const Document& document, std::string_view text) {
-    const ParsedJson::parser_callback_t limit_depth = [&](int depth, ParsedJson::parse_event_t, ParsedJson&) {
-        if (depth > max_json_depth) {
-            fail(document, "JSON", "nested deeper than " + std::to_string(max_json_depth) + " levels");
-        }
-        return true;
-    };
-    try {
-        ParsedJson root = ParsedJson::parse(text.begin(), text.end(), limit_depth);
-        if (!root.is_object()) {
-            fail(document, "JSON", "the root is not an object");
-        }
-        return root;
-    } catch (const ParsedJson::exception& error) {
-        fail(document, "JSON", one_line(error.what()));
-    }
 }
 
 void check_version(const Document& document, const ParsedJson& root) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "gltf/parse.h"
+
 namespace diptych::core::gltf {
 namespace {
 
@@ -162,7 +164,7 @@ public:
         } else if (path.substr(0, 2) == "{}") {
             require(value.is_object(), value, "is no object", pointer);
             for (auto& [name, member] : value.items()) {
-                check(member, path.substr(2), type, pointer + "/" + name);
+                check(member, path.substr(2), type, pointer + pointer_part(name));
             }
         } else {
             require(value.is_object(), value, "is no object", pointer);
