@@ -19,6 +19,7 @@ constexpr OptionName names[] = {
     {"integrator", "--integrator"},
     {"layers", "--layers"},
     {"look_at", "--look-at"},
+    {"memory_limit", "--memory-limit"},
     {"mis", "--mis"},
     {"normal_maps", "--normal-maps"},
     {"oracle_mode", "--oracle-mode"},

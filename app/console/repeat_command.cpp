@@ -117,6 +117,9 @@ std::string repeat_command(const RenderRequest& request, std::uint32_t spp) {
         add_option(command, "--ignore-extension", extension);
     }
     command += request.allow_external ? " --allow-external" : "";
+    if (request.memory_limit > 0) {
+        add_option(command, "--memory-limit", request.memory_limit);
+    }
     add_option(command, "-o", request.output);
     add_option(command, "--backend", request.backend);
     if (!request.device.empty()) {
@@ -161,6 +164,9 @@ std::string replay_command(const RenderRequest& request, const shared::PathQuery
         add_option(command, "--ignore-extension", extension);
     }
     command += request.allow_external ? " --allow-external" : "";
+    if (request.memory_limit > 0) {
+        add_option(command, "--memory-limit", request.memory_limit);
+    }
     add_option(command, "--pixel", fmt::format("{},{}", path.pixel.x, path.pixel.y));
     add_option(command, "--sample", path.sample_index);
     add_option(command, "--integrator", name_of(settings.integrator));

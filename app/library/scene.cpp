@@ -251,7 +251,8 @@ Scene Scene::copy() const {
 Scene load(const std::string& path, const LoadOptions& options) {
     return guarded([&] {
         auto content = std::make_shared<core::Scene>(
-            core::load_gltf(path, {options.ignore_extensions, options.strict, options.allow_external}));
+            core::load_gltf(path, {options.ignore_extensions, options.strict, options.allow_external,
+                                   options.memory_limit}));
         if (content->name.empty()) {
             content->name = path;
         }
@@ -273,8 +274,8 @@ Scene load(const std::string& path, const LoadOptions& options) {
     });
 }
 
-Environment load_environment(const std::string& path) {
-    return guarded([&] { return from_core(core::load_environment(path)); });
+Environment load_environment(const std::string& path, std::uint64_t memory_limit) {
+    return guarded([&] { return from_core(core::load_environment(path, nullptr, memory_limit)); });
 }
 
 Camera look_at(const Point& eye, const Point& target, const Point& up, double vertical_fov) {

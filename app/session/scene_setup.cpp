@@ -38,7 +38,7 @@ std::optional<glm::vec3> parse_color(const std::string& text) {
     return color;
 }
 
-Environment requested_environment(const std::string& text, Warnings& warnings) {
+Environment requested_environment(const std::string& text, std::uint64_t memory_limit, Warnings& warnings) {
     const std::optional<glm::vec3> color = parse_color(text);
     if (!color) {
         const bool like_numbers = text.find_first_not_of("0123456789+-.,eE ") == std::string::npos;
@@ -46,7 +46,7 @@ Environment requested_environment(const std::string& text, Warnings& warnings) {
             throw Error(fmt::format("--env {}: expected three numbers R,G,B or a file", text));
         }
         std::string lines;
-        const Environment environment = load_environment(text, &lines);
+        const Environment environment = load_environment(text, &lines, memory_limit);
         std::istringstream stream(lines);
         for (std::string line; std::getline(stream, line);) {
             warnings.add(line);
@@ -73,7 +73,7 @@ void find_environment(Scene& scene, RenderRequest& request) {
     } else if (request.environment == neutral_environment) {
         scene.environment = neutral_sky();
     } else if (!request.environment.empty()) {
-        scene.environment = requested_environment(request.environment, scene.warnings);
+        scene.environment = requested_environment(request.environment, request.memory_limit, scene.warnings);
     } else if (!request.sun) {
         request.adds_neutral_sky = add_missing_light(scene, " (--env none leaves it out)");
     }
@@ -129,7 +129,8 @@ void choose_clips(Scene& scene, const RenderRequest& request) {
 }  // namespace
 
 Scene load_requested(RenderRequest& request) {
-    Scene scene = load_gltf(request.scene, {request.ignored_extensions, request.strict, request.allow_external});
+    Scene scene = load_gltf(
+        request.scene, {request.ignored_extensions, request.strict, request.allow_external, request.memory_limit});
     if (scene.name.empty()) {
         scene.name = request.scene;
     }

@@ -146,6 +146,7 @@ void apply_sparse(const Document& document, const tinygltf::Accessor& accessor, 
     const Span value_span =
         find_span(document, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count, size,
                   object + ".sparse.values");
+    ask_memory(document, object, bytes_of(count, sizeof(std::uint32_t) + components * sizeof(Number)));
     std::vector<std::uint32_t> indices(count);
     copy_typed(index_span, sparse.indices.componentType, count, 1, false, indices.data());
     std::vector<Number> values(count * components);
@@ -178,6 +179,7 @@ std::vector<Number> read(const Document& document, const tinygltf::Accessor& acc
              "has " + std::to_string(accessor.count) + " elements and no buffer view; a file of this size may have " +
                  std::to_string(most));
     }
+    ask_memory(document, object, bytes_of(accessor.count, components * sizeof(Number)));
     std::vector<Number> numbers(accessor.count * components);
     if (span.data != nullptr) {
         copy_typed(span, accessor.componentType, accessor.count, components, accessor.normalized, numbers.data());

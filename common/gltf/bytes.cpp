@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 
 #include "error.h"
-#include "near_miss.h"
+#include "input_file.h"
 
 namespace diptych::core::gltf {
 namespace {
@@ -58,37 +57,20 @@ std::filesystem::path path_of_uri(const std::string& uri, const std::filesystem:
     return named_so ? escaped : plain;
 }
 
-/// Whether a relative path, once all .. in it are resolved, begins with one.
-bool leads_out(const std::string& uri) {
-    const std::filesystem::path path = from_utf8(decode_percent(uri)).lexically_normal();
-    return path.is_absolute() || (!path.empty() && *path.begin() == "..");
+/// Whether the file lies outside the folder: by .., by an absolute path, or by a symbolic link on the way.
+bool leads_out(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    const auto inside = [](const std::filesystem::path& relative) { return relative.empty() || *relative.begin() != ".."; };
+    const std::filesystem::path base = folder.empty() ? "." : folder;
+    if (!inside(file.lexically_normal().lexically_relative(base.lexically_normal()))) {
+        return true;
+    }
+    std::error_code failure;
+    const std::filesystem::path real_base = std::filesystem::weakly_canonical(base, failure);
+    const std::filesystem::path real_file = std::filesystem::weakly_canonical(file, failure);
+    return failure || !inside(real_file.lexically_relative(real_base));
 }
 
 }  // namespace
-
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) {
-        throw Error("no such file" + did_you_mean_file(path));
-    }
-    if (std::filesystem::is_directory(status)) {
-        throw Error("is a folder, not a file");
-    }
-    if (!std::filesystem::is_regular_file(status)) {
-        throw Error("is a device or a pipe, not a file");
-    }
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) {
-        throw Error("cannot be opened for reading");
-    }
-    std::vector<std::uint8_t> bytes(std::filesystem::file_size(path));
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) {
-        throw Error("cannot be read to its end");
-    }
-    return bytes;
-}
 
 std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text) {
     std::vector<std::uint8_t> bytes;
@@ -135,13 +117,14 @@ std::optional<std::filesystem::path> file_of_uri(const std::string& uri, const s
     return embedded || unusable ? std::nullopt : std::optional(path_of_uri(uri, folder));
 }
 
-std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem::path& folder, bool allow_external) {
+std::vector<std::uint8_t> read_uri(const std::string& uri, const UriRules& rules) {
     if (uri.rfind("data:", 0) == 0) {
         const std::size_t comma = uri.find(',');
         if (comma == std::string::npos) {
             throw Error("the data URI has no comma");
         }
         const std::string_view data = std::string_view(uri).substr(comma + 1);
+        rules.budget.ask(data.size());  // no encoding makes them fewer
         if (std::string_view(uri).substr(0, comma).find(";base64") == std::string_view::npos) {
             const std::string plain = decode_percent(data);
             return {plain.begin(), plain.end()};
@@ -161,11 +144,18 @@ std::vector<std::uint8_t> read_uri(const std::string& uri, const std::filesystem
     if (uri.find('\0') != std::string::npos || decode_percent(uri).find('\0') != std::string::npos) {
         throw Error("the URI holds a zero byte");
     }
-    if (!allow_external && leads_out(uri)) {
-        throw Error("the URI '" + uri + "' leads out of the file's folder (`allow_external` reads it)");
+    const std::filesystem::path file = path_of_uri(uri, rules.folder);
+    if (!rules.allow_external && leads_out(file, rules.folder)) {
+        throw RefusedUri("the URI '" + uri + "' leads out of the file's folder (`allow_external` reads it)");
+    }
+    std::error_code unknown;
+    if (const std::string problem = input_problem(file); !problem.empty() && std::filesystem::exists(file, unknown)) {
+        throw RefusedUri("'" + uri + "': " + problem);
     }
     try {
-        return read_bytes(path_of_uri(uri, folder));
+        return read_file(file, rules.budget);
+    } catch (const OverBudget& error) {
+        throw OverBudget("'" + uri + "': " + error.what());
     } catch (const Error& error) {
         throw Error("'" + uri + "': " + error.what());
     }

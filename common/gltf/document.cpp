@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "error.h"
+#include "input_file.h"
+#include "one_line.h"
 #include "gltf/bytes.h"
 #include "gltf/parse.h"
 #include "gltf/schema.h"
@@ -23,15 +26,6 @@ constexpr std::array<const char*, 9> supported_extensions{
 template <class List>
 bool contains(const List& list, const std::string& word) {
     return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-std::string one_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-    while (!text.empty() && text.back() == ' ') {
-        text.pop_back();
-    }
-    return text;
 }
 
 void check_version(const Document& document, const ParsedJson& root) {
@@ -87,11 +81,12 @@ void read_buffers(Document& document, const ParsedJson& buffers, std::optional<B
         tinygltf::Buffer buffer;
         if (entry.contains("uri")) {
             try {
-                buffer.data = read_uri(string_member(entry, "uri"), document.folder, document.allow_external);
+                buffer.data = read_uri(string_member(entry, "uri"), {document.folder, document.allow_external, *document.budget});
             } catch (const Error& error) {
                 fail(document, object + ".uri", error.what());
             }
         } else if (i == 0 && binary) {
+            ask_memory(document, object, binary->size());
             buffer.data = *std::move(binary);
             binary.reset();
         } else {
@@ -121,6 +116,7 @@ Bytes view_bytes(const Document& document, std::uint64_t index) {
     if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
         throw Error("bufferViews[" + std::to_string(index) + "] ends past its buffer");
     }
+    document.budget->ask(view.byteLength);
     const auto begin = data.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
     return {begin, begin + static_cast<std::ptrdiff_t>(view.byteLength)};
 }
@@ -138,12 +134,16 @@ void read_images(Document& document, const ParsedJson& images) {
                 image.name = decode_percent(uri);
             }
             if (entry.contains("uri")) {
-                image.bytes = read_uri(uri, document.folder, document.allow_external);
+                image.bytes = read_uri(uri, {document.folder, document.allow_external, *document.budget});
             } else if (const std::optional<std::uint64_t> view = unsigned_member(entry, "bufferView")) {
                 image.bytes = view_bytes(document, *view);
             } else {
                 throw Error("has neither a URI nor a buffer view");
             }
+        } catch (const RefusedUri& error) {
+            fail(document, label("images", document.images.size(), image.name) + ".uri", error.what());
+        } catch (const OverBudget& error) {
+            fail(document, label("images", document.images.size(), image.name), error.what());
         } catch (const Error& error) {
             image.problem = error.what();
         }
@@ -223,6 +223,14 @@ void fail(const Document& document, const std::string& object, const std::string
     throw Error(one_line(document.file + ": " + object + ": " + reason));
 }
 
+void ask_memory(const Document& document, const std::string& object, std::uint64_t bytes) {
+    try {
+        document.budget->ask(bytes);
+    } catch (const OverBudget& error) {
+        throw OverBudget(one_line(document.file + ": " + object + ": " + error.what()));
+    }
+}
+
 void warn(const Document& document, Warnings& warnings, const std::string& object, const std::string& kind,
           const std::string& detail) {
     if (document.strict) {
@@ -255,12 +263,13 @@ Document read_document(const std::filesystem::path& path, const GltfOptions& opt
     Document document;
     document.strict = options.strict;
     document.allow_external = options.allow_external;
+    document.budget = std::make_shared<MemoryBudget>(options.memory_limit);
     document.file = path.string();
     document.folder = path.parent_path();
     Bytes bytes;
     GlbChunks chunks;
     try {
-        bytes = read_bytes(path);
+        bytes = read_file(path, *document.budget);
         if (bytes.empty()) {
             throw Error("the file is empty");
         }
@@ -274,14 +283,17 @@ Document read_document(const std::filesystem::path& path, const GltfOptions& opt
     }
     ParsedJson root = parse_json(document, chunks.json);
     check_version(document, root);
-    check_extensions(document, root, options.ignored_extensions);
     check_types(document, root);
+    check_extensions(document, root, options.ignored_extensions);
     const ParsedJson buffers = take_array(root, "buffers");
     const ParsedJson images = take_array(root, "images");
     document.animations = take_array(root, "animations");
     root.erase("extras");
 
     const std::string text = root.dump();
+    if (text.size() > std::numeric_limits<unsigned int>::max()) {
+        fail(document, "JSON", "has more than 4 GB");
+    }
     std::string errors;
     std::string warnings;
     tinygltf::TinyGLTF reader;

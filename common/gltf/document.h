@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tiny_gltf.h>
 #include <vector>
 
 #include "gltf/import.h"
+#include "memory_budget.h"
 #include "scene/warnings.h"
 
 namespace diptych::core::gltf {
@@ -31,11 +33,15 @@ struct Document {
     nlohmann::json animations;  // an array, as it stands in the file
     bool strict = false;          // a warning is an error
     bool allow_external = false;  // URIs may lead out of the folder
+    std::shared_ptr<MemoryBudget> budget;
     Warnings warnings;
 };
 
 /// Throws Error "file: object: reason".
 [[noreturn]] void fail(const Document& document, const std::string& object, const std::string& reason);
+
+/// Counts bytes that are about to be allocated for the object. Throws OverBudget "file: object: reason".
+void ask_memory(const Document& document, const std::string& object, std::uint64_t bytes);
 
 /// Counts `object` under the warning `kind` (warnings.h); `detail` is more about this object. Throws Error instead
 /// where the document is read strictly.

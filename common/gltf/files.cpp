@@ -6,12 +6,14 @@
 
 #include "error.h"
 #include "gltf/bytes.h"
+#include "input_file.h"
 
 namespace diptych::core {
 namespace {
 
 nlohmann::json parse(const std::filesystem::path& path) {
-    const std::vector<std::uint8_t> bytes = gltf::read_bytes(path);
+    MemoryBudget budget(0);
+    const std::vector<std::uint8_t> bytes = read_file(path, budget);
     if (gltf::is_glb(bytes)) {
         return nlohmann::json::parse(gltf::split_glb(bytes).json, nullptr, false);
     }

@@ -56,7 +56,7 @@ void spread_channels(const std::vector<std::uint8_t>& from, std::size_t channels
 }
 
 /// The first one to four channels.
-ByteImage decode(const char* name, const Bytes& bytes) {
+ByteImage decode(const char* name, const Bytes& bytes, MemoryBudget& budget) {
     const std::unique_ptr<PictureFile> file = image_library().open(name, bytes);
     const PictureHeader& header = file->headers().front();
     const auto [x, y, width, height] = header.stored;
@@ -67,14 +67,25 @@ ByteImage decode(const char* name, const Bytes& bytes) {
                     std::to_string(channels));
     }
     ByteImage image{width, height, static_cast<int>(std::min<std::size_t>(channels, 4)), {}};
+    // As decoded, and as RGBA beside it where that is another picture.
+    const int copied = image.channels == 4 ? 0 : 4;
+    budget.ask(bytes_of(static_cast<std::uint64_t>(texels), static_cast<std::uint64_t>(image.channels + copied)));
     image.data.resize(static_cast<std::size_t>(texels) * static_cast<std::size_t>(image.channels));
     file->read(0, 0, image.channels, image.data);
     return image;
 }
 
+const ImageLibrary& library_for(const Document& document, const std::string& object) {
+    try {
+        return image_library();
+    } catch (const std::runtime_error& error) {
+        fail(document, object, error.what());
+    }
+}
+
 }  // namespace
 
-TextureImage decode_image(const EncodedImage& encoded) {
+TextureImage decode_image(const EncodedImage& encoded, MemoryBudget& budget) {
     if (!encoded.problem.empty()) {
         throw Error(encoded.problem);
     }
@@ -87,7 +98,7 @@ TextureImage decode_image(const EncodedImage& encoded) {
     }
     ByteImage decoded;
     try {
-        decoded = decode(name, encoded.bytes);
+        decoded = decode(name, encoded.bytes, budget);
     } catch (const Error&) {
         throw;
     } catch (const std::runtime_error& error) {
@@ -103,8 +114,8 @@ TextureImage decode_image(const EncodedImage& encoded) {
     return image;
 }
 
-bool reads_webp() {
-    return image_library().reads("webp");
+bool reads_webp(const Document& document, const std::string& object) {
+    return library_for(document, object).reads("webp");
 }
 
 TextureImage checker(const std::string& name) {
@@ -123,15 +134,18 @@ TextureImage checker(const std::string& name) {
 
 DecodedImages decode_images(const Document& document, const std::vector<int>& wanted) {
     if (!wanted.empty()) {
-        image_library();  // where it is missing, that is an error, not a warning for each image
+        library_for(document, "images");  // where it is missing, that is an error, not a warning for each image
     }
+    std::vector<std::string> too_large(wanted.size());
     DecodedImages decoded{std::vector<TextureImage>(wanted.size()), std::vector<std::string>(wanted.size())};
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
         for (std::size_t i = next++; i < wanted.size(); i = next++) {
             const EncodedImage& encoded = document.images[static_cast<std::size_t>(wanted[i])];
             try {
-                decoded.images[i] = decode_image(encoded);
+                decoded.images[i] = decode_image(encoded, *document.budget);
+            } catch (const OverBudget& error) {
+                too_large[i] = error.what();
             } catch (const std::exception& error) {
                 decoded.problems[i] = error.what();
                 decoded.images[i] = checker(encoded.name);
@@ -148,6 +162,12 @@ DecodedImages decode_images(const Document& document, const std::vector<int>& wa
         } catch (const std::system_error&) {  // no more threads here: those that run, and this one, do all the work
         }
         work();
+    }
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        if (!too_large[i].empty()) {
+            const auto index = static_cast<std::size_t>(wanted[i]);
+            fail(document, label("images", index, document.images[index].name), too_large[i]);
+        }
     }
     return decoded;
 }

@@ -9,11 +9,11 @@
 namespace diptych::core::gltf {
 
 /// Decodes PNG, JPEG, WebP and what else OpenImageIO reads (told by content) to 8-bit RGBA; alpha stays unassociated,
-/// nothing is colour-managed. Throws Error (its message without the file's name).
-TextureImage decode_image(const EncodedImage& encoded);
+/// nothing is colour-managed. Throws Error (its message without the file's name), and OverBudget.
+TextureImage decode_image(const EncodedImage& encoded, MemoryBudget& budget);
 
-/// Whether this OpenImageIO reads WebP.
-bool reads_webp();
+/// Whether this OpenImageIO reads WebP. Throws Error in the name of `object` where there is none.
+bool reads_webp(const Document& document, const std::string& object);
 
 /// Magenta and black squares, which stand for an image that cannot be had.
 TextureImage checker(const std::string& name);
@@ -25,6 +25,7 @@ struct DecodedImages {
 };
 
 /// Decodes `document.images[i]` for each i of `wanted`, in that order, on all cores. What cannot be had is a checker.
+/// Throws OverBudget.
 DecodedImages decode_images(const Document& document, const std::vector<int>& wanted);
 
 }  // namespace diptych::core::gltf

@@ -1,6 +1,7 @@
 // glTF 2.0 files to logical scenes.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ struct GltfOptions {
         ignored_extensions;  // loaded without, though the file requires them and they are not supported
     bool strict = false;          // whatever would be a warning is an error
     bool allow_external = false;  // read buffers and images that lie outside the file's folder too
+    std::uint64_t memory_limit = 0;  // bytes that the file may ask for (memory_budget.h); 0: a quarter of the memory
 };
 
 /// Loads a .gltf or .glb file: the default scene (else the first, else all root nodes) at rest, skins and morph targets

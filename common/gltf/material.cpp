@@ -49,10 +49,10 @@ int image_of(const tinygltf::Texture& texture, const char* extension) {
 
 // The image that a texture reads, or `none`: WebP where this program can decode it, else the core image, else what an
 // extension names, so that a warning can say what is lacking.
-int image_of(const tinygltf::Texture& texture) {
+int image_of(const Document& document, const tinygltf::Texture& texture, const std::string& object) {
     const int webp = image_of(texture, "EXT_texture_webp");
     if (texture.source != none) {
-        return webp != none && reads_webp() ? webp : texture.source;
+        return webp != none && reads_webp(document, object) ? webp : texture.source;
     }
     return webp != none ? webp : image_of(texture, "KHR_texture_basisu");
 }
@@ -80,7 +80,7 @@ int import_texture(Context& context, int index, const std::string& slot) {
     }
     const tinygltf::Texture& source = document.model.textures[static_cast<std::size_t>(index)];
     const std::string object = label("textures", static_cast<std::size_t>(index), source.name);
-    const int image = image_of(source);
+    const int image = image_of(document, source, object);
     if (image == none) {
         warn(document, object, "has no image; it is left out");
         return context.tables.textures[index] = none;

@@ -108,17 +108,22 @@ std::vector<int> descend(const Document& document, const std::vector<int>& roots
     return order;
 }
 
-// Whether one of the node's ancestors is marked. `parents` holds no circle.
-bool hangs_in(const std::vector<bool>& marked, const std::vector<int>& parents, int node) {
-    int ancestor = parents[static_cast<std::size_t>(node)];
-    while (ancestor != none && !marked[static_cast<std::size_t>(ancestor)]) {
-        ancestor = parents[static_cast<std::size_t>(ancestor)];
+// Of each node, whether one of its ancestors is marked. `order` has parents first.
+std::vector<bool> below(const std::vector<bool>& marked, const std::vector<int>& parents, const std::vector<int>& order) {
+    std::vector<bool> hangs(marked.size(), false);
+    for (const int node : order) {
+        const int parent = parents[static_cast<std::size_t>(node)];
+        if (parent != none) {
+            const auto above = static_cast<std::size_t>(parent);
+            hangs[static_cast<std::size_t>(node)] = marked[above] || hangs[above];
+        }
     }
-    return ancestor != none;
+    return hangs;
 }
 
 // The topmost nodes of the scene. One that has a parent is no root, but some exporters list all nodes of a scene.
-std::vector<int> scene_roots(Document& document, const std::vector<int>& parents, const std::vector<int>& all_roots) {
+std::vector<int> scene_roots(Document& document, const std::vector<int>& parents, const std::vector<int>& all_roots,
+                             const std::vector<int>& order) {
     const tinygltf::Model& model = document.model;
     if (model.scenes.empty()) {
         return all_roots;
@@ -144,7 +149,8 @@ std::vector<int> scene_roots(Document& document, const std::vector<int>& parents
         seen[static_cast<std::size_t>(node)] = true;
         roots.push_back(node);
     }
-    std::erase_if(roots, [&](int node) { return hangs_in(seen, parents, node); });
+    const std::vector<bool> hangs = below(seen, parents, order);
+    std::erase_if(roots, [&](int node) { return hangs[static_cast<std::size_t>(node)]; });
     return roots;
 }
 
@@ -187,7 +193,7 @@ NodeTree read_nodes(Document& document) {
             fail(document, node_label(document, static_cast<int>(i)), "is its own ancestor");
         }
     }
-    tree.visible = descend(document, scene_roots(document, parents, roots));
+    tree.visible = descend(document, scene_roots(document, parents, roots, order));
     std::vector<bool> carries(parents.size(), false);
     for (const int node : tree.visible) {
         for (int up = node; up != none && !carries[static_cast<std::size_t>(up)];

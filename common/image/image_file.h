@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -40,10 +41,11 @@ struct RawImage {
 };
 
 /// The picture of any file that OpenImageIO reads, and of Radiance files. In an EXR it is the layer of that name, or
-/// what choose_picture finds; of its part, the channels named in `beside` are read too where they are there. Throws an
-/// Error naming file, layer and reason.
+/// what choose_picture finds; of its part, the channels named in `beside` are read too where they are there. The pixels
+/// as stored and the picture made of them may take `memory_limit` bytes (memory_budget.h). Throws an Error naming file,
+/// layer and reason.
 RawImage read_raw(const std::filesystem::path& path, const std::string& layer = "",
-                  const std::vector<std::string>& beside = {});
+                  const std::vector<std::string>& beside = {}, std::uint64_t memory_limit = 0);
 
 /// The string attributes of a file that OpenImageIO reads. Throws an Error naming file and reason.
 std::map<std::string, std::string> read_attributes(const std::filesystem::path& path);

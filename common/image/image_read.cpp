@@ -6,9 +6,11 @@
 #include <stdexcept>
 
 #include "error.h"
+#include "image/exr_header.h"
 #include "image/image_file.h"
 #include "image/image_library.h"
-#include "near_miss.h"
+#include "input_file.h"
+#include "one_line.h"
 #include "image/picture_layers.h"
 #include "image/radiance_file.h"
 #include "image/size_claim.h"
@@ -27,17 +29,10 @@ namespace fs = std::filesystem;
 }
 
 void check_file(const fs::path& path) {
-    std::error_code error;
-    if (!fs::exists(path, error)) {
-        fail("no such file" + did_you_mean_file(path));
+    if (const std::string problem = input_problem(path); !problem.empty()) {
+        fail(problem);
     }
-    if (fs::is_directory(path, error)) {
-        fail("it is a folder, not a file");
-    }
-    if (!fs::is_regular_file(path, error)) {
-        fail("it is not a regular file");
-    }
-    if (fs::file_size(path, error) == 0 && !error) {
+    if (fs::file_size(path) == 0) {
         fail("the file is empty");
     }
 }
@@ -48,12 +43,12 @@ bool begins_like_radiance(const fs::path& path) {
     return is_radiance({first.data(), first.size()});
 }
 
-RawImage read_radiance_raw(const fs::path& path, const std::string& layer) {
+RawImage read_radiance_raw(const fs::path& path, const std::string& layer, MemoryBudget& budget) {
     if (!layer.empty()) {
         fail_without_layers(layer);
     }
     RawImage raw;
-    raw.image = read_radiance(path);
+    raw.image = read_radiance(path, budget);
     raw.channel_names = {"R", "G", "B"};
     raw.color = {0, 1, 2};
     raw.display = raw.data = {0, 0, raw.image.width, raw.image.height};
@@ -104,7 +99,8 @@ void read_channels(PictureFile& file, size_t part, int begin, int end, RawImage&
     }
 }
 
-void check_sizes(const PictureHeader& header, const RawImage& raw, int channels, std::size_t file_bytes) {
+void check_sizes(const PictureHeader& header, const RawImage& raw, int channels, std::size_t file_bytes,
+                 MemoryBudget& budget) {
     if (header.depth > 1) {
         fail("it is a volume, not a picture");
     }
@@ -116,10 +112,20 @@ void check_sizes(const PictureHeader& header, const RawImage& raw, int channels,
             fail(reason);
         }
     }
+    budget.ask(float_bytes(header.stored.width, header.stored.height, channels));
+    budget.ask(float_bytes(raw.display.width, raw.display.height, channels));
 }
 
-RawImage read_by_library(const fs::path& path, const std::string& layer, const std::vector<std::string>& beside) {
-    const std::unique_ptr<PictureFile> file = image_library().open(path);
+std::unique_ptr<PictureFile> open_by_library(const fs::path& path) {
+    if (const std::string problem = exr_header_problem(path); !problem.empty()) {
+        fail(problem);
+    }
+    return image_library().open(path);
+}
+
+RawImage read_by_library(const fs::path& path, const std::string& layer, const std::vector<std::string>& beside,
+                         MemoryBudget& budget) {
+    const std::unique_ptr<PictureFile> file = open_by_library(path);
     if (!file->exr() && !layer.empty()) {
         fail_without_layers(layer);
     }
@@ -142,7 +148,7 @@ RawImage read_by_library(const fs::path& path, const std::string& layer, const s
 
     RawImage raw;
     find_windows(header, file->exr(), raw);
-    check_sizes(header, raw, end - begin, fs::file_size(path));
+    check_sizes(header, raw, end - begin, fs::file_size(path), budget);
     raw.channel_names.assign(names.begin() + begin, names.begin() + end);
     for (const int channel : picture.channels) {
         raw.color.push_back(channel - begin);
@@ -161,34 +167,37 @@ RawImage read_by_library(const fs::path& path, const std::string& layer, const s
 
 namespace {
 
-/// Names the file where it cannot be read.
+/// Names the file where it cannot be read. `read` is given the budget.
 template <class Read>
-auto read_checked(const fs::path& path, const Read& read) {
+auto read_checked(const fs::path& path, std::uint64_t memory_limit, const Read& read) {
     try {
+        MemoryBudget budget(memory_limit);
         check_file(path);
-        return read();
+        return read(budget);
     } catch (const std::bad_alloc&) {
         throw Error(path.string() + ": cannot read: the picture does not fit in memory");
     } catch (const std::runtime_error& error) {
-        throw Error(path.string() + ": cannot read: " + error.what());
+        throw Error(path.string() + ": cannot read: " + one_line(error.what()));
     }
 }
 
 }  // namespace
 
-RawImage read_raw(const fs::path& path, const std::string& layer, const std::vector<std::string>& beside) {
-    return read_checked(path, [&] {
-        return begins_like_radiance(path) ? read_radiance_raw(path, layer) : read_by_library(path, layer, beside);
+RawImage read_raw(const fs::path& path, const std::string& layer, const std::vector<std::string>& beside,
+                  std::uint64_t memory_limit) {
+    return read_checked(path, memory_limit, [&](MemoryBudget& budget) {
+        return begins_like_radiance(path) ? read_radiance_raw(path, layer, budget)
+                                          : read_by_library(path, layer, beside, budget);
     });
 }
 
 std::map<std::string, std::string> read_attributes(const fs::path& path) {
-    return read_checked(path, [&] { return image_library().open(path)->headers()[0].attributes; });
+    return read_checked(path, 0, [&](MemoryBudget&) { return open_by_library(path)->headers()[0].attributes; });
 }
 
 std::optional<WordChannels> read_words(const fs::path& path) {
-    return read_checked(path, [&]() -> std::optional<WordChannels> {
-        const std::unique_ptr<PictureFile> file = image_library().open(path);
+    return read_checked(path, 0, [&](MemoryBudget& budget) -> std::optional<WordChannels> {
+        const std::unique_ptr<PictureFile> file = open_by_library(path);
         const PictureHeader& header = file->headers()[0];
         const std::vector<std::string>& names = header.part.channels;
         const auto is_word = [](const std::string& name) { return name.starts_with(word_prefix); };
@@ -208,6 +217,7 @@ std::optional<WordChannels> read_words(const fs::path& path) {
         if (!reason.empty()) {
             fail(reason);
         }
+        budget.ask(2 * float_bytes(words.width, words.height, static_cast<std::int64_t>(words.names.size())));
         words.data.resize(static_cast<std::size_t>(words.width) * static_cast<std::size_t>(words.height) *
                           words.names.size());
         file->read(0, static_cast<int>(begin - names.begin()), static_cast<int>(end - names.begin()), words.data);

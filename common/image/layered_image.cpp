@@ -157,14 +157,14 @@ Image linear_color(const RawImage& raw) {
     return color;
 }
 
-LayeredImage read_image(const std::filesystem::path& path, const std::string& layer) {
+LayeredImage read_image(const std::filesystem::path& path, const std::string& layer, std::uint64_t memory_limit) {
     std::vector<std::string> beside;
     if (layer.empty()) {
         for (const OptionalLayer& optional_layer : optional_layers()) {
             beside.insert(beside.end(), optional_layer.channels.begin(), optional_layer.channels.end());
         }
     }
-    const RawImage raw = read_raw(path, layer, beside);
+    const RawImage raw = read_raw(path, layer, beside, memory_limit);
     LayeredImage layers;
     layers.color = linear_color(raw);
     if (layer.empty()) {

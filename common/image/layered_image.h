@@ -36,8 +36,9 @@ std::map<std::string, std::string> read_metadata(const std::filesystem::path& pa
 /// EXR with the layers it has, or any other picture as colour alone. The picture is what the display window shows. A
 /// layer or part of an EXR can be chosen by name; then it is the colour, alone. Integer files are decoded from sRGB to
 /// linear unless marked linear; grey becomes three equal channels; alpha is ignored; other chromaticities than Rec.709's
-/// are converted. Throws an Error naming file and reason.
-LayeredImage read_image(const std::filesystem::path& path, const std::string& layer = "");
+/// are converted. `memory_limit` is read_raw's. Throws an Error naming file and reason.
+LayeredImage read_image(const std::filesystem::path& path, const std::string& layer = "",
+                        std::uint64_t memory_limit = 0);
 
 /// The picture of a file as linear Rec.709: what read_image does to colours.
 Image linear_color(const RawImage& raw);

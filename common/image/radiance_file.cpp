@@ -3,14 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "image/radiance_header.h"
 #include "image/size_claim.h"
+#include "input_file.h"
 
 namespace diptych::core {
 namespace {
@@ -141,12 +140,13 @@ bool is_radiance(std::string_view first_bytes) {
     return first_bytes.substr(0, 2) == "#?";
 }
 
-Image read_radiance(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+Image read_radiance(const std::filesystem::path& path, MemoryBudget& budget) {
+    const std::vector<std::uint8_t> content = read_file(path, budget);
+    const std::string_view bytes(reinterpret_cast<const char*>(content.data()), content.size());
     const RadianceHeader header = read_radiance_header(bytes);
     check_size(header, bytes.size() - header.size, bytes.size());
-    Image image = read_pixels(Bytes(std::string_view(bytes).substr(header.size)), header);
+    budget.ask(2 * float_bytes(header.width(), header.height(), 3));  // as stored, and the picture made of it
+    Image image = read_pixels(Bytes(bytes.substr(header.size)), header);
     if (header.xyz) {
         convert_color(image, xyz_to_rec709());
     } else if (header.primaries && !same_chromaticities(*header.primaries, rec709)) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "image/image.h"
+#include "memory_budget.h"
 
 namespace diptych::core {
 
@@ -14,7 +15,7 @@ bool is_radiance(std::string_view first_bytes);
 
 /// Three channels of radiance, upright, in Rec.709. RGB without PRIMARIES is taken for Rec.709; XYZ is converted without
 /// adaptation. Throws a std::runtime_error with the reason, without the file's name; a file too short for its resolution
-/// is refused before the picture's memory is taken.
-Image read_radiance(const std::filesystem::path& path);
+/// is refused before the picture's memory is taken, and so is what the budget does not allow.
+Image read_radiance(const std::filesystem::path& path, MemoryBudget& budget);
 
 }  // namespace diptych::core

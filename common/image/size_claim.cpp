@@ -27,4 +27,9 @@ std::string size_claim_problem(std::int64_t width, std::int64_t height, std::int
     return "";
 }
 
+std::uint64_t float_bytes(std::int64_t width, std::int64_t height, std::int64_t channels) {
+    return sizeof(float) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) *
+           static_cast<std::uint64_t>(channels);
+}
+
 }  // namespace diptych::core

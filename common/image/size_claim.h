@@ -18,4 +18,7 @@ inline constexpr double display_grant = 1 << 30;
 std::string size_claim_problem(std::int64_t width, std::int64_t height, std::int64_t channels, std::size_t file_bytes,
                                double grant = stored_grant);
 
+/// Bytes of so many floats.
+std::uint64_t float_bytes(std::int64_t width, std::int64_t height, std::int64_t channels);
+
 }  // namespace diptych::core

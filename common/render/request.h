@@ -23,6 +23,7 @@ struct RenderRequest {
     std::vector<std::string> ignored_extensions;  // required by the file, lacking here, and done without
     bool strict = false;                          // refuse a file that loads with a warning
     bool allow_external = false;                  // read what the file names outside its folder too
+    std::uint64_t memory_limit = 0;               // bytes that a file may ask for; 0: a quarter of the memory
     std::string clip;                             // name or index of the animation to play; empty is all
     std::string output;                           // file
     std::string backend = "cpu";                  // cpu, vulkan or oracle

@@ -11,9 +11,9 @@
 namespace diptych::core {
 namespace {
 
-RawImage read_map(const PictureName& name) {
+RawImage read_map(const PictureName& name, std::uint64_t memory_limit) {
     try {
-        return read_raw(name.file, name.layer);
+        return read_raw(name.file, name.layer, {}, memory_limit);
     } catch (const Error& error) {
         throw Error(std::string("environment map ") + error.what());
     }
@@ -43,7 +43,7 @@ std::vector<glm::vec3> radiance_of(const Image& color, std::size_t& negative, co
 
 }  // namespace
 
-Environment load_environment(const std::string& name, std::string* warnings) {
+Environment load_environment(const std::string& name, std::string* warnings, std::uint64_t memory_limit) {
     const PictureName picture = picture_name(name);
     const std::string what = "environment map " + name;
     const auto warn = [&](const std::string& line) {
@@ -51,7 +51,7 @@ Environment load_environment(const std::string& name, std::string* warnings) {
             *warnings += (warnings->empty() ? "" : "\n") + what + ": " + line;
         }
     };
-    const RawImage raw = read_map(picture);
+    const RawImage raw = read_map(picture, memory_limit);
     if (raw.integer) {
         throw Error(what + ": holds display values, not radiance: wants an .hdr or .exr file");
     }

@@ -122,8 +122,9 @@ struct Environment {
     bool operator==(const Environment&) const = default;
 };
 
-/// Reads a map from an .hdr or .exr file, at scale 1. Throws Error.
-DIPTYCH_EXPORT Environment load_environment(const std::string& path);
+/// Reads a map from an .hdr or .exr file, at scale 1. The file may ask for `memory_limit` bytes; 0 is a quarter of the
+/// machine's memory. Throws Error.
+DIPTYCH_EXPORT Environment load_environment(const std::string& path, std::uint64_t memory_limit = 0);
 
 /// A mesh at its place.
 struct Instance {
@@ -199,6 +200,7 @@ struct LoadOptions {
     std::vector<std::string> ignore_extensions;  // glTF extensions that the file requires and that are done without
     bool strict = false;                         // whatever would be a warning throws
     bool allow_external = false;                 // read what the file names outside its folder too
+    std::uint64_t memory_limit = 0;              // bytes that the file may ask for; 0: a quarter of the memory
     std::string animation;                       // name or index of the one that plays; empty: all of them
     bool complete = true;  // add a camera where there is none, a neutral sky where it would be black
     std::function<void(const std::string& line)> warnings;

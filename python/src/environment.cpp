@@ -67,8 +67,13 @@ void bind_environment(py::module_& module) {
             "Reading\n"
             "gives a read-only view; an array that is set is copied.");
     module.def(
-        "load_environment", [](const py::object& path) { return E(load_environment(path_of(path))); }, py::arg("path"),
-        "Reads a map from an .hdr or .exr file, at scale (1, 1, 1).");
+        "load_environment",
+        [](const py::object& path, std::uint64_t memory_limit) {
+            return E(load_environment(path_of(path), memory_limit));
+        },
+        py::arg("path"), py::arg("memory_limit") = 0,
+        "Reads a map from an .hdr or .exr file, at scale (1, 1, 1). The file may ask for memory_limit bytes; 0 is a quarter\n"
+        "of the machine's memory.");
 }
 
 void bind_scene_environment(py::class_<Scene>& scene) {

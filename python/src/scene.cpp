@@ -97,10 +97,10 @@ void bind_values(py::module_& module) {
 }
 
 Scene loaded(const py::object& path, const std::vector<std::string>& ignore_extensions, bool strict,
-             bool allow_external, const std::string& animation, bool complete) {
+             bool allow_external, std::uint64_t memory_limit, const std::string& animation, bool complete) {
     std::vector<std::string> warnings;
-    LoadOptions options{ignore_extensions, strict,   allow_external,
-                        animation,         complete, [&](const std::string& line) { warnings.push_back(line); }};
+    LoadOptions options{ignore_extensions, strict, allow_external, memory_limit, animation,
+                        complete,          [&](const std::string& line) { warnings.push_back(line); }};
     const std::string file = path_of(path);
     Scene scene = [&] {
         const py::gil_scoped_release others_run;
@@ -150,11 +150,12 @@ void bind_scene(py::module_& module) {
     bind_meshes(scene);
     module.def("load", &loaded, py::arg("path"), py::kw_only(),
                py::arg("ignore_extensions") = std::vector<std::string>(), py::arg("strict") = false,
-               py::arg("allow_external") = false, py::arg("animation") = "", py::arg("complete") = true,
+               py::arg("allow_external") = false, py::arg("memory_limit") = 0, py::arg("animation") = "", py::arg("complete") = true,
                "Loads a .gltf or .glb file.\n\n"
                "What it cannot show becomes a SceneWarning; strict raises Error instead. ignore_extensions names glTF\n"
                "extensions that the file requires and that are done without. allow_external reads what the file names\n"
-               "outside its folder too. animation is the name or the index of the one that plays; all play where it is "
+               "outside its folder too. memory_limit is the number of bytes that the file may ask for; 0 is a quarter of the\n"
+               "machine's memory. animation is the name or the index of the one that plays; all play where it is "
                "empty.\n"
                "complete adds a camera and a neutral sky where the scene has neither.");
     module.def(

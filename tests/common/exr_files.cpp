@@ -8,6 +8,7 @@
 #include "catch.h"
 #include "exr_bytes.h"
 #include "image/atomic_file.h"
+#include "image/exr_header.h"
 #include "image/layered_image.h"
 #include "image/picture_name.h"
 #include "image/size_claim.h"
@@ -112,6 +113,27 @@ TEST_CASE("a header may claim what is in proportion to its file", "[image]") {
     CHECK(contains(size_claim_problem(131073, 1, 1, 1'000'000), "131072 a side"));
     CHECK(contains(size_claim_problem(16385, 16384, 1, 1'000'000'000), "268435456 in all"));
     CHECK(contains(size_claim_problem(0, 8, 3, 500), "no pixels"));
+}
+
+TEST_CASE("an attribute of an EXR claims no more bytes than the file has", "[image]") {
+    const TemporaryFolder folder;
+    const ExrPart grey = constant_part(whole, {{"Y", 0.5F}});
+    for (const std::vector<ExrPart>& parts : {std::vector{grey}, {named("a", grey), named("b", grey)}}) {
+        std::string bytes = exr_bytes(parts);
+        const std::string attribute("pixelAspectRatio\0float\0", 23);
+        const std::size_t claim = bytes.rfind(attribute) + attribute.size();  // in the last part
+        write_file_atomically(folder / "a.exr", bytes);
+        CHECK(exr_header_problem(folder / "a.exr").empty());
+        bytes.replace(claim, 4, std::string("\0\0\0\x60", 4));
+        write_file_atomically(folder / "a.exr", bytes);
+        CHECK(contains(read(folder / "a.exr").refusal, "'pixelAspectRatio' claims 1610612736 bytes"));
+    }
+}
+
+TEST_CASE("names in an EXR do not break the line that refuses it", "[image]") {
+    const TemporaryFolder folder;
+    const Read refused = read(folder, {constant_part(whole, {{"U\n\x1b[2J", 1.0F}})});
+    CHECK(contains(refused.refusal, "it holds U  [2J, neither"));
 }
 
 TEST_CASE("layers and parts of an EXR are chosen by name", "[image]") {

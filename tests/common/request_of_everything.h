@@ -10,6 +10,7 @@ inline RenderRequest request_of_everything() {
     request.scene = "a scene's.gltf";
     request.ignored_extensions = {"EXT_one", "EXT_two"};
     request.allow_external = true;
+    request.memory_limit = std::uint64_t{1} << 40;
     request.clip = "slow walk";
     request.output = "out.exr";
     request.backend = "vulkan";

@@ -1,4 +1,5 @@
 // What a program may get wrong: one line that names the object, and nothing changed.
+#include <fstream>
 #include <functional>
 #include <limits>
 
@@ -116,6 +117,28 @@ TEST_CASE("A mesh of arrays that do not fit is refused, and nothing is added") {
     CHECK(scene.instances().size() == 3);
     const std::vector<std::uint8_t> pixel(4, 255);
     CHECK(message_of([&] { scene.add_texture(2, 1, pixel, "wood"); }) == "texture 'wood': 4 bytes for 2x1 RGBA pixels");
+}
+
+TEST_CASE("A file reads and allocates what its caller allows") {
+    const Folder folder;
+    std::filesystem::create_directory(folder.path / "scene");
+    std::filesystem::copy_file(source_dir + "/scenes/cornell.gltf", folder.path / "scene/cornell.gltf");
+    std::filesystem::copy_file(source_dir + "/scenes/cornell.bin", folder.path / "cornell.bin");
+    std::filesystem::create_symlink("../cornell.bin", folder.path / "scene/cornell.bin");
+    const std::string file = folder.file("scene/cornell.gltf");
+    dp::LoadOptions options;
+    CHECK_THAT(message_of([&] { dp::load(file, options); }),
+               Catch::Contains(file) && Catch::Contains("`allow_external`"));
+    options.allow_external = true;
+    CHECK(dp::load(file, options).mesh_count() > 0);
+    options.memory_limit = 100;
+    CHECK_THAT(message_of([&] { dp::load(file, options); }),
+               Catch::Contains(file) && Catch::Contains("may ask for 100 bytes (`memory_limit`)"));
+    const std::string sky = folder.file("sky.hdr");
+    std::ofstream(sky) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" << std::string(8, '\x80');
+    CHECK(dp::load_environment(sky).map->width == 2);
+    CHECK_THAT(message_of([&] { dp::load_environment(sky, 70); }),
+               Catch::Contains(sky) && Catch::Contains("`memory_limit`"));
 }
 
 TEST_CASE("Names that a scene lacks, files that are not there and settings out of range are named") {

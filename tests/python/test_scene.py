@@ -242,6 +242,20 @@ def test_a_file_that_cannot_be_loaded_is_named(tmp_path):
         dp.load(tmp_path / "bad.gltf")
 
 
+def test_a_file_asks_for_no_more_memory_than_it_may(tmp_path):
+    from conftest import SCENES
+
+    scene = SCENES / "cornell.gltf"
+    with pytest.raises(dp.Error, match=r"cornell.gltf.*may ask for 100 bytes \(`memory_limit`\)"):
+        dp.load(scene, memory_limit=100)
+    assert dp.load(scene, memory_limit=1 << 30).mesh_count > 0
+    sky = tmp_path / "sky.hdr"
+    sky.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + bytes([128] * 8))
+    assert dp.load_environment(sky).map.shape == (1, 2, 3)
+    with pytest.raises(dp.Error, match="memory_limit"):
+        dp.load_environment(sky, memory_limit=70)
+
+
 def test_what_a_file_asks_in_vain_is_a_warning(tmp_path):
     (tmp_path / "odd.gltf").write_text('{"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_nonsense"], '
                                        '"extensionsRequired": ["EXT_nonsense"]}')

@@ -20,7 +20,7 @@ TEST_CASE("the repeating command holds every setting and survives a shell", "[to
     const std::string command = repeat_command(request_of_everything(), 77);
     INFO(command);
     CHECK(contains(command, "diptych render 'a scene'\\''s.gltf' --ignore-extension EXT_one --ignore-extension EXT_two "
-                            "--allow-external -o out.exr "));
+                            "--allow-external --memory-limit 1099511627776 -o out.exr "));
     for (const char* part : {"--backend vulkan",   "--device 1",         "--integrator direct",
                              "--spp 77",           "--size 640x480",     "--max-depth 8",
                              "--seed 4294967295",  "--brdf blinn-phong", "--sampler hammersley",

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "error.h"
+#include "memory_budget.h"
 #include "console/report.h"
 #include "oracle_renderer/oracle_renderer.h"
 #include "session/scene_setup.h"
@@ -86,6 +87,23 @@ void add_display_options(CLI::App& command, double& exposure, std::string& tonem
         ->capture_default_str();
 }
 
+void add_memory_option(CLI::App& command, std::uint64_t& limit) {
+    const auto problem = [](const std::string& text) {
+        try {
+            memory_from_text(text);
+            return std::string();
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+    };
+    command
+        .add_option_function<std::string>(
+            "--memory-limit", [&limit](const std::string& text) { limit = memory_from_text(text); },
+            "Memory that an input file may ask for, such as 500M or 2G; default: a quarter of the machine's")
+        ->check(CLI::Validator(problem, ""))
+        ->type_name("SIZE");
+}
+
 void add_integrator_option(CLI::App& command, RenderArguments& arguments) {
     arguments.panel_options.push_back(
         command
@@ -134,6 +152,7 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
         ->allow_extra_args(false);
     command.add_flag("--allow-external", request.allow_external,
                      "Also read buffers and textures outside the scene file's folder");
+    add_memory_option(command, request.memory_limit);
     command.add_flag("--strict", request.strict,
                      "Refuse a scene file with faults or with parts that cannot be shown, instead of warning");
     arguments.panel_options.push_back(

@@ -1,6 +1,7 @@
 // Options that several commands share, from text to a RenderRequest.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ CLI::Validator accepted_by(const SettingRange& range);
 
 /// The option that sets it: "--max-depth".
 std::string option_of(const SettingRange& range);
+
+/// --memory-limit, in bytes. Throws nothing; CLI11 refuses what is no amount.
+void add_memory_option(CLI::App& command, std::uint64_t& limit);
 
 void add_integrator_option(CLI::App& command, RenderArguments& arguments);
 

@@ -46,6 +46,7 @@ struct CompareOptions {
     std::optional<double> heat_max;
     std::optional<double> max_z;
     std::optional<double> max_relmse;
+    std::uint64_t memory_limit = 0;
     bool json = false;
 };
 
@@ -112,9 +113,9 @@ void print_numbers(const Difference& difference) {
                  difference.relmse, ratio[0], ratio[1], ratio[2], z[0], z[1], z[2]);
 }
 
-LayeredImage read_named(const std::string& text) {
+LayeredImage read_named(const std::string& text, std::uint64_t memory_limit) {
     const PictureName name = picture_name(text);
-    LayeredImage image = read_image(name.file, name.layer);
+    LayeredImage image = read_image(name.file, name.layer, memory_limit);
     if (!image.layer.empty()) {
         report_warning(fmt::format("{}: the colour is its layer '{}'", text, image.layer));
     }
@@ -161,11 +162,11 @@ struct Pictures {
 };
 
 Pictures read_pictures(const CompareOptions& options) {
-    Pictures pictures{read_named(options.a), read_named(options.b), {}};
+    Pictures pictures{read_named(options.a, options.memory_limit), read_named(options.b, options.memory_limit), {}};
     require_same_window(options.a, pictures.a, options.b, pictures.b);
     PixelWindow common = intersection(pictures.a.data, pictures.b.data);
     for (const std::string& name : options.minus) {
-        pictures.minus.push_back(read_named(name));
+        pictures.minus.push_back(read_named(name, options.memory_limit));
         require_same_window("--minus " + name, pictures.minus.back(), options.a, pictures.a);
         common = intersection(common, pictures.minus.back().data);
     }
@@ -278,6 +279,7 @@ void add_compare(CLI::App& app, Run& run) {
         ->check(non_negative_number());
     command->add_option("--max-relmse", options->max_relmse, "Exit code 1 if the relMSE exceeds this value")
         ->check(non_negative_number());
+    add_memory_option(*command, options->memory_limit);
     command->add_flag("--json", options->json, "Print the results as JSON");
     command->footer(compare_examples);
     command->callback([options, &run] { run = [options] { return run_compare(*options); }; });

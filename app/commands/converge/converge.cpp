@@ -85,7 +85,8 @@ ConvergeSubject plan_subject(const ConvergeOptions& options, const Scene& scene)
     refuse_to_write_over_inputs(options, subject.methods);
     if (reference_is_file(options)) {
         const RenderSettings& settings = options.arguments.request.settings;
-        subject.given_reference = load_reference(options.reference, settings.width, settings.height);
+        subject.given_reference = load_reference(options.reference, settings.width, settings.height,
+                                                 options.arguments.request.memory_limit);
     } else {
         subject.reference = plan_reference(options, subject.methods);
     }
@@ -98,7 +99,7 @@ int run_converge(ConvergeOptions options) {
         options.arguments.size = default_converge_size;
     }
     if (options.arguments.size.empty()) {
-        const Image image = read_image(options.reference).color;
+        const Image image = read_image(options.reference, "", options.arguments.request.memory_limit).color;
         options.arguments.size = fmt::format("{}x{}", image.width, image.height);
     }
     check_converge_options(options);

@@ -11,6 +11,7 @@
 #include "chart/svg.h"
 #include "commands/converge/charts.h"
 #include "image/atomic_file.h"
+#include "input_file.h"
 #include "measure/converge/method.h"
 #include "page_texts.h"
 
@@ -20,10 +21,11 @@ namespace {
 
 /// A PNG as a data URI; null where there is none.
 nlohmann::ordered_json embedded(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
+    if (!std::filesystem::exists(path)) {
         return nullptr;
     }
+    require_input(path);
+    std::ifstream file(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     return chart::png_uri(bytes);
 }

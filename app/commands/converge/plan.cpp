@@ -7,8 +7,10 @@
 #include <fstream>
 #include <iterator>
 
+#include "digest.h"
 #include "error.h"
 #include "image/atomic_file.h"
+#include "input_file.h"
 #include "oracle_renderer/oracle_renderer.h"
 #include "console/repeat_command.h"
 #include "settings/names.h"
@@ -77,12 +79,13 @@ Method parse_method(const char* option, const std::string& text, const RenderReq
     return method;
 }
 
-/// FNV-1a over a file's bytes.
 std::string digest(const std::string& path) {
+    require_input(path);
     std::ifstream file(path, std::ios::binary);
-    std::uint64_t hash = 0xcbf29ce484222325U;
+    std::uint64_t hash = digest_of({});
     for (std::istreambuf_iterator<char> byte(file), end; byte != end; ++byte) {
-        hash = (hash ^ static_cast<unsigned char>(*byte)) * 0x100000001b3U;
+        const auto value = static_cast<unsigned char>(*byte);
+        hash = digest_of({&value, 1}, hash);
     }
     return fmt::format("{:016x}", hash);
 }
@@ -248,6 +251,7 @@ FileLock claim_folder(const ConvergeOptions& options, const nlohmann::ordered_js
         write_file_atomically(path, plan.dump(2) + "\n");
         return lock;
     }
+    require_input(path);
     std::ifstream file(path);
     const nlohmann::ordered_json was = nlohmann::ordered_json::parse(file, nullptr, false);
     if (was.is_discarded() || !was.is_object()) {

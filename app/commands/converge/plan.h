@@ -45,6 +45,6 @@ nlohmann::ordered_json plan_to_json(const ConvergeOptions& options, const std::v
 [[nodiscard]] FileLock claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& plan);
 
 /// The picture that --reference names, of the given size with three channels. Throws Error.
-ReferencePicture load_reference(const std::string& path, int width, int height);
+ReferencePicture load_reference(const std::string& path, int width, int height, std::uint64_t memory_limit);
 
 }  // namespace diptych::core::app

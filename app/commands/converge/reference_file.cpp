@@ -8,8 +8,8 @@
 
 namespace diptych::core::app {
 
-ReferencePicture load_reference(const std::string& path, int width, int height) {
-    LayeredImage image = read_image(path);
+ReferencePicture load_reference(const std::string& path, int width, int height, std::uint64_t memory_limit) {
+    LayeredImage image = read_image(path, "", memory_limit);
     if (image.color.width != width || image.color.height != height) {
         throw Error(fmt::format("--reference {}: has {}x{} pixels, but {}x{} are rendered; give --size", path,
                                 image.color.width, image.color.height, width, height));

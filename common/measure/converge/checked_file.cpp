@@ -3,24 +3,22 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string_view>
 
+#include "digest.h"
 #include "error.h"
 #include "image/atomic_file.h"
+#include "input_file.h"
 
 namespace diptych::core {
 
 namespace {
 
-/// FNV-1a of 64 bits.
 std::uint64_t checksum(std::string_view bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325U;
-    for (const char byte : bytes) {
-        hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-    }
-    return hash;
+    return digest_of({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace
@@ -32,9 +30,13 @@ void write_checked_file(const std::string& path, std::string bytes) {
 }
 
 std::optional<std::string> read_checked_file(const std::string& path) {
+    if (!std::filesystem::exists(path)) {
+        return std::nullopt;
+    }
+    require_input(path);
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        return std::nullopt;
+        throw Error(fmt::format("{}: cannot read", path));
     }
     std::ostringstream stream;
     stream << file.rdbuf();

@@ -1,9 +1,26 @@
 #include "measure/converge/reference.h"
 
 #include <cmath>
-#include <cstdlib>
+#include <charconv>
+
+#include "error.h"
 
 namespace diptych::core {
+
+namespace {
+
+/// 0 where the picture does not say.
+std::uint32_t sample_count(const std::string& text, const std::string& picture) {
+    std::uint32_t count = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, failure] = std::from_chars(text.data(), end, count);
+    if (!text.empty() && (failure != std::errc() || stop != end)) {
+        throw Error(picture + ": its metadata spp is '" + text.substr(0, 40) + "', not a number of samples");
+    }
+    return count;
+}
+
+}  // namespace
 
 ReferencePicture reference_of(LayeredImage image, std::string method) {
     ReferencePicture reference;
@@ -22,7 +39,7 @@ ReferencePicture reference_of(LayeredImage image, std::string method) {
         return found == image.metadata.end() ? std::string() : found->second;
     };
     reference.command = entry("command");
-    reference.spp = static_cast<std::uint32_t>(std::strtoul(entry("spp").c_str(), nullptr, 10));
+    reference.spp = sample_count(entry("spp"), reference.method);
     reference.image = std::move(image);
     return reference;
 }
