@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "session/make_renderer.h"
+#include "commands/arguments/typed_text.h"
 #include "commands/command.h"
 #include "error.h"
 #include "commands/program.h"
@@ -56,6 +57,7 @@ int run_command(int argc, char** argv) {
     add_converge(app, run);
     add_stability(app, run);
     add_view(app, run);
+    take_text_as_typed(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {

@@ -63,7 +63,7 @@ int run_stability(const StabilityOptions& options) {
     const std::vector<std::string> files =
         options.output.empty() ? std::vector<std::string>() : write_report(report, options.output);
     if (options.json) {
-        nlohmann::ordered_json json = to_json(report);
+        nlohmann::ordered_json json = app::to_json(report);
         json["files"] = files;
         print_json(json);
     } else {
