@@ -1,0 +1,6 @@
+#include "picture.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const diptych::core::fuzz::InputFile file("picture.exr");
+    return diptych::core::fuzz::read_picture(file, {data, size});
+}
