@@ -196,7 +196,7 @@ std::map<std::string, std::string> read_attributes(const fs::path& path) {
 }
 
 std::optional<WordChannels> read_words(const fs::path& path) {
-    return read_checked(path, 0, [&](MemoryBudget& budget) -> std::optional<WordChannels> {
+    return read_checked(path, 0, [&](MemoryBudget&) -> std::optional<WordChannels> {
         const std::unique_ptr<PictureFile> file = open_by_library(path);
         const PictureHeader& header = file->headers()[0];
         const std::vector<std::string>& names = header.part.channels;
@@ -217,7 +217,6 @@ std::optional<WordChannels> read_words(const fs::path& path) {
         if (!reason.empty()) {
             fail(reason);
         }
-        budget.ask(2 * float_bytes(words.width, words.height, static_cast<std::int64_t>(words.names.size())));
         words.data.resize(static_cast<std::size_t>(words.width) * static_cast<std::size_t>(words.height) *
                           words.names.size());
         file->read(0, static_cast<int>(begin - names.begin()), static_cast<int>(end - names.begin()), words.data);
