@@ -136,7 +136,6 @@ constexpr Member members[] = {
     {"animations[]/channels[]/target/node", Type::index},
     {"animations[]/channels[]/target/path", Type::string},
     {"animations[]/channels[]/target/extensions/KHR_animation_pointer/pointer", Type::string},
-    {"animations[]/samplers[]/interpolation", Type::string},
     {"animations[]/samplers[]/input", Type::index},
     {"animations[]/samplers[]/output", Type::index},
 };

@@ -58,8 +58,7 @@ constexpr Row rows[] = {
     {R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":"x"}]}})",
      "/extensions/KHR_lights_punctual/lights/0/intensity", "is no number"},
     {R"("animations":{"0":{}})", "/animations", "is no array"},
-    {R"("animations":[{"samplers":[{"interpolation":1}]}])", "/animations/0/samplers/0/interpolation",
-     "is no string"},
+    {R"("animations":[{"samplers":[{"input":"0"}]}])", "/animations/0/samplers/0/input", "is no index"},
     {R"("extensionsUsed":"KHR_materials_ior")", "/extensionsUsed", "is no array"},
     {R"("extensionsRequired":[5])", "/extensionsRequired/0", "is no string"},
     // Indices and sizes that are negative, broken or beyond 32 bits.
