@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "commands/render/live_view.h"
 #include "commands/render/picture_work.h"
@@ -115,7 +116,7 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
     const int losses_before = guard.losses();
     Picture picture;
     ProgressiveResult result;
-    Film film;
+    std::shared_ptr<const Film> kept_film;
     try {
         ProgressLine line(request.spp, audience.label);
         ProgressiveHooks hooks;
@@ -139,14 +140,15 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
             result = can_be_lost ? render_progressively(lasting, *target, cancel, hooks)
                                  : render_progressively(session, *target, cancel, hooks);
         }
-        film = work.whole(renderer.film());
+        kept_film = work.whole(renderer.film_in_place());
     } catch (const DeviceLost& error) {
-        film = work.whole(lasting.kept());
+        kept_film = work.whole(std::make_shared<Film>(lasting.kept()));
         result.spp = lasting.kept_samples();
         result.interrupted = picture.lost = true;
         report_error(fmt::format("{}: {}; {} samples per pixel are saved, {} are lost", request.output, error.what(),
                                  work.kept().spp + lasting.kept_samples(), lasting.lost_samples()));
     }
+    const Film& film = *kept_film;
     const RenderOutcome outcome = work.outcome_of(result, film, renderer.device());
     picture.interrupted = result.interrupted;
     const FilmTotals totals = film_totals(film);

@@ -75,14 +75,15 @@ std::function<void(const Film&)> PictureWork::checkpoints() {
     return [writer](const Film& film) { writer->offer(film); };
 }
 
-Film PictureWork::whole(Film film) const {
-    if (film.pixels.empty()) {
-        return kept_.film;
+std::shared_ptr<const Film> PictureWork::whole(std::shared_ptr<const Film> film) const {
+    if (kept_.spp == 0) {
+        return film;
     }
-    if (kept_.spp > 0) {
-        merge_films(kept_.film, film);
+    const auto whole = std::make_shared<Film>(kept_.film);
+    if (!film->pixels.empty()) {
+        merge_films(*film, *whole);
     }
-    return film;
+    return whole;
 }
 
 RenderOutcome PictureWork::outcome_of(const ProgressiveResult& result, const Film& film,

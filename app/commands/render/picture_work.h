@@ -1,6 +1,9 @@
 // One picture on its way: what earlier runs have left of it, what becomes of it, and the files that it leaves.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "commands/render/kept_work.h"
@@ -29,7 +32,7 @@ public:
     std::function<void(const Film&)> checkpoints();
 
     /// The film with the samples that were kept.
-    Film whole(Film film) const;
+    std::shared_ptr<const Film> whole(std::shared_ptr<const Film> film) const;
 
     /// How the render went, of which that whole film has come.
     RenderOutcome outcome_of(const ProgressiveResult& result, const Film& film, const std::string& device) const;
