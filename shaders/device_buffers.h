@@ -4,11 +4,11 @@
 #ifndef DEVICE_BUFFERS_H
 #define DEVICE_BUFFERS_H
 
-// X(element type, name, alignment of the address, whether shaders write it)
+// X(element type, name, alignment of the address, whether shaders write it). Films are words (film_layout.h).
 #define DEVICE_ARRAYS(X)                                \
-    X(FilmPixel, film_pixels, 4, writable)              \
-    X(FilmMoments, film_moments, 4, writable)           \
-    X(FilmFirstHit, film_first_hits, 4, writable)       \
+    X(uint, film_pixels, 4, writable)                   \
+    X(uint, film_moments, 4, writable)                  \
+    X(uint, film_first_hits, 4, writable)               \
     X(FirstVertex, first_vertices, 4, writable)         \
     X(Reservoir, reservoirs, 4, writable)               \
     X(ReuseSurface, reuse_surfaces, 4, writable)        \

@@ -8,6 +8,7 @@
 #include "display.h"
 #include "display_colors.h"
 #include "film_values.glsl"
+#include "film_words.glsl"
 #include "restir/resampling_memory.h"
 #include "film/tonemap.h"
 
@@ -18,9 +19,6 @@ layout(push_constant, scalar) uniform Push { Display display; };
 layout(set = 0, binding = 1, scalar) buffer Histogram { uint histogram[]; };
 shared uint bins[HISTOGRAM_BINS];
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pixels { FilmPixel data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Moments { FilmMoments data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FirstHits { FilmFirstHit data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Reservoirs { Reservoir data[]; };
 
 bool is_there(uvec2 address) { return (address.x | address.y) != 0u; }
@@ -46,18 +44,22 @@ Value value_of(DisplayFilm film, uvec2 picture_pixel) {
     uint index = at.y * film.size.x + at.x;
     uint layer = display.layer;
     if (layer == LAYER_RADIANCE || layer == LAYER_SAMPLES || layer == LAYER_NONFINITE) {
-        FilmPixel pixel = Pixels(film.pixels).data[index];
+        FilmPixel pixel = load_film_pixel(film_pixel_place(film.pixels, index));
         value.known = true;
         value.v = layer == LAYER_RADIANCE  ? film_mean(pixel)
                   : layer == LAYER_SAMPLES ? vec3(float(pixel.samples))
                                            : vec3(float(pixel.nonfinite));
     } else if (layer == LAYER_STANDARD_ERROR && is_there(film.moments)) {
         value.known = true;
-        value.v = vec3(luminance(film_standard_error(Pixels(film.pixels).data[index], Moments(film.moments).data[index])));
+        FilmMoments moments;
+        moments.squares = load_exact_sum(film_moments_place(film.moments, index));
+        value.v = vec3(
+            luminance(film_standard_error(load_film_pixel(film_pixel_place(film.pixels, index)), moments)));
     } else if ((layer == LAYER_ALBEDO || layer == LAYER_NORMAL || layer == LAYER_DEPTH) && is_there(film.first_hits)) {
-        FilmFirstHit hit = FirstHits(film.first_hits).data[index];
+        FilmFirstHit hit = load_film_first_hit(film_first_hit_place(film.first_hits, index));
         value.known = true;
-        float n = max(1.0f, float(Pixels(film.pixels).data[index].samples) + float(Pixels(film.pixels).data[index].nonfinite));
+        FilmPixel pixel = load_film_pixel(film_pixel_place(film.pixels, index));
+        float n = max(1.0f, float(pixel.samples) + float(pixel.nonfinite));
         value.v = layer == LAYER_ALBEDO   ? film_mean(hit.albedo, n)
                   : layer == LAYER_NORMAL ? film_mean(hit.normal, n)
                                           : vec3(film_mean(hit.depth, n));

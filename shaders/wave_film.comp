@@ -15,6 +15,9 @@ void main() {
         return;
     }
     uvec2 place = path_pixel(pixel);
+    uint index = place.y * constants.size.x + place.x;
+    FilmEntry before = load_film(index);
+    FilmEntry film = before;
     for (uint path = pixel; path < slice_paths(); path += slice_pixels()) {
         PathSample found;
         found.radiance = addresses.wave_paths.data[path].radiance;
@@ -23,6 +26,7 @@ void main() {
         if (feature(FEATURE_FIRST_HIT_LAYERS)) {
             found.first_hit = addresses.wave_first_hits.data[path];
         }
-        add_to_film(place.y * constants.size.x + place.x, found);
+        add_path(found, film.pixel, film.moments, film.first_hit);
     }
+    store_film(index, before, film);
 }

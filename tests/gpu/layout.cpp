@@ -129,14 +129,6 @@ std::map<std::string, Offsets> cpp_offsets() {
         {"ReuseSurface",
          {FIELD(ReuseSurface, position), FIELD(ReuseSurface, geometric_normal), FIELD(ReuseSurface, normal),
           FIELD(ReuseSurface, wo), FIELD(ReuseSurface, diffuse), FIELD(ReuseSurface, f0), FIELD(ReuseSurface, rest)}},
-        {"FilmPixel",
-         {FIELD(FilmPixel, sum), FIELD(FilmPixel, samples), FIELD(FilmPixel, nonfinite), FIELD(FilmPixel, rays),
-          FIELD(FilmPixel, ray_wraps)}},
-        {"ExactSum", {FIELD(ExactSum, low), FIELD(ExactSum, high), FIELD(ExactSum, base)}},
-        {"ExactScalar", {FIELD(ExactScalar, low), FIELD(ExactScalar, high), FIELD(ExactScalar, base)}},
-        {"FixedSum", {FIELD(FixedSum, low), FIELD(FixedSum, high)}},
-        {"FilmMoments", {FIELD(FilmMoments, squares)}},
-        {"FilmFirstHit", {FIELD(FilmFirstHit, albedo), FIELD(FilmFirstHit, normal), FIELD(FilmFirstHit, depth)}},
         {"Dispatch",
          {FIELD(Dispatch, origin), FIELD(Dispatch, first_sample), FIELD(Dispatch, sample_count),
           FIELD(Dispatch, ray_capacity), FIELD(Dispatch, first_ray), FIELD(Dispatch, first_path),
@@ -206,7 +198,6 @@ TEST_CASE("What the display pass is told lies in memory as its shader sees it") 
           Offsets{FIELD(Display, left), FIELD(Display, right), FIELD(Display, size), FIELD(Display, divider),
                   FIELD(Display, layer), FIELD(Display, flags), FIELD(Display, tonemap), FIELD(Display, exposure),
                   FIELD(Display, low), FIELD(Display, high)});
-    CHECK(layouts.strides.at("FilmPixel") == sizeof(shared::FilmPixel));
     CHECK(layouts.strides.at("Reservoir") == sizeof(shared::Reservoir));
 }
 
@@ -222,9 +213,6 @@ TEST_CASE("Arrays of shared structs have the stride of their size") {
     CHECK_STRIDE(AliasEntry);
     CHECK_STRIDE(LightCluster);
     CHECK_STRIDE(ClusterPick);
-    CHECK_STRIDE(FilmPixel);
-    CHECK_STRIDE(FilmMoments);
-    CHECK_STRIDE(FilmFirstHit);
     CHECK_STRIDE(RecordedRay);
     CHECK_STRIDE(FirstVertex);
     CHECK_STRIDE(Reservoir);

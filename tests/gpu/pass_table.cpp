@@ -32,12 +32,7 @@ constexpr NamedResource named_resources[] = {
     {"SceneAddresses", Resource::scene},
     {"Constants", Resource::scene},
     {"structures", Resource::structures},
-    {"film_pixels", Resource::film},
-    {"film_moments", Resource::film},
-    {"film_first_hits", Resource::film},
-    {"Pixels", Resource::film},  // as display.comp calls them
-    {"Moments", Resource::film},
-    {"FirstHits", Resource::film},
+    {"FilmWords", Resource::film},
     {"Reservoirs", Resource::reservoirs},
     {"Histogram", Resource::histogram},
     {"first_vertices", Resource::first_vertices},

@@ -25,7 +25,7 @@ std::string message_of(const Work& work) {
     return "";
 }
 
-void write(const std::filesystem::path& path, const std::string& text) {
+void write_text(const std::filesystem::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
 }
 
@@ -37,7 +37,7 @@ TEST_CASE("A damaged state of converge is refused by the name of the file") {
     const std::filesystem::path results = folder.path() / "results.jsonl", sums = folder.path() / "cpu-path.sums";
     for (const std::string line : {R"({"kind":"run"})", R"({"kind":"scene","load_seconds":"1"})", "7", "not json"}) {
         INFO(line);
-        write(results, line + "\n");
+        write_text(results, line + "\n");
         CHECK_THAT(message_of([&] { ConvergeState{name}; }),
                    Catch::Contains(results.string() + ": has a line") && Catch::Contains("`output`"));
     }

@@ -1,19 +1,57 @@
 #include "memory/film_memory.h"
 
 #include "commands/commands.h"
+#include "../../shaders/film_layout.h"
 #include "memory/readback.h"
 #include "language/scene_features.h"
+#include "threads.h"
 
 namespace diptych::core {
 namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-template <typename T>
-Buffer layer(const Gpu& gpu, std::uint64_t count) {
-    return make_buffer(gpu, Purpose::film, count * sizeof(T),
+static_assert(sizeof(shared::FilmPixel) == 4 * shared::FILM_PIXEL_WORDS);
+static_assert(sizeof(shared::FilmMoments) == 4 * shared::FILM_MOMENTS_WORDS);
+static_assert(sizeof(shared::FilmFirstHit) == 4 * shared::FILM_FIRST_HIT_WORDS);
+
+/// Of whole blocks.
+template <class Struct>
+std::uint64_t layer_bytes(std::uint64_t pixels) {
+    return (pixels + shared::FILM_BLOCK - 1) / shared::FILM_BLOCK * shared::FILM_BLOCK * sizeof(Struct);
+}
+
+template <class Struct>
+Buffer layer(const Gpu& gpu, std::uint64_t pixels) {
+    return make_buffer(gpu, Purpose::film, layer_bytes<Struct>(pixels),
                        Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferSrc | Usage::eTransferDst,
                        MemoryKind::device);
+}
+
+/// Calls copy(word of a struct, word of the device) for all words of so many structs.
+template <class Struct, class Copy>
+void for_words(std::size_t pixels, const Copy& copy) {
+    constexpr std::size_t words = sizeof(Struct) / sizeof(std::uint32_t);
+    in_parts(pixels, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t pixel = begin; pixel < end; ++pixel) {
+            for (std::size_t word = 0; word < words; ++word) {
+                copy(pixel * words + word, (pixel / shared::FILM_BLOCK * words + word) * shared::FILM_BLOCK +
+                                               pixel % shared::FILM_BLOCK);
+            }
+        }
+    });
+}
+
+template <class Struct>
+std::vector<Struct> read_layer(const Gpu& gpu, const Buffer& buffer, std::size_t pixels) {
+    if (buffer.size == 0) {
+        return {};
+    }
+    const std::vector<std::uint32_t> words = read_array<std::uint32_t>(gpu, buffer);
+    std::vector<Struct> structs(pixels);
+    auto* to = reinterpret_cast<std::uint32_t*>(structs.data());
+    for_words<Struct>(pixels, [&](std::size_t own, std::size_t device) { to[own] = words[device]; });
+    return structs;
 }
 
 }  // namespace
@@ -59,9 +97,10 @@ Film read_film(const Gpu& gpu, const FilmMemory& film) {
     Film host;
     host.width = film.width;
     host.height = film.height;
-    host.pixels = read_array<shared::FilmPixel>(gpu, film.pixels);
-    host.moments = read_array<shared::FilmMoments>(gpu, film.moments);
-    host.first_hits = read_array<shared::FilmFirstHit>(gpu, film.first_hits);
+    const std::size_t pixels = static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height);
+    host.pixels = read_layer<shared::FilmPixel>(gpu, film.pixels, pixels);
+    host.moments = read_layer<shared::FilmMoments>(gpu, film.moments, pixels);
+    host.first_hits = read_layer<shared::FilmFirstHit>(gpu, film.first_hits, pixels);
     return host;
 }
 
@@ -70,9 +109,21 @@ std::uint64_t film_bytes(const FilmMemory& film) {
 }
 
 std::uint64_t film_bytes(std::uint64_t pixels, std::uint32_t features) {
-    return pixels * (sizeof(shared::FilmPixel) +
-                     ((features & shared::FEATURE_STANDARD_ERROR) != 0 ? sizeof(shared::FilmMoments) : 0) +
-                     ((features & shared::FEATURE_FIRST_HIT_LAYERS) != 0 ? sizeof(shared::FilmFirstHit) : 0));
+    return layer_bytes<shared::FilmPixel>(pixels) +
+           ((features & shared::FEATURE_STANDARD_ERROR) != 0 ? layer_bytes<shared::FilmMoments>(pixels) : 0) +
+           ((features & shared::FEATURE_FIRST_HIT_LAYERS) != 0 ? layer_bytes<shared::FilmFirstHit>(pixels) : 0);
 }
+
+template <class Struct>
+std::vector<std::uint32_t> device_words(const std::vector<Struct>& structs) {
+    std::vector<std::uint32_t> words(layer_bytes<Struct>(structs.size()) / sizeof(std::uint32_t));
+    const auto* from = reinterpret_cast<const std::uint32_t*>(structs.data());
+    for_words<Struct>(structs.size(), [&](std::size_t own, std::size_t device) { words[device] = from[own]; });
+    return words;
+}
+
+template std::vector<std::uint32_t> device_words(const std::vector<shared::FilmPixel>&);
+template std::vector<std::uint32_t> device_words(const std::vector<shared::FilmMoments>&);
+template std::vector<std::uint32_t> device_words(const std::vector<shared::FilmFirstHit>&);
 
 }  // namespace diptych::core

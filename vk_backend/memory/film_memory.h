@@ -8,7 +8,7 @@
 
 namespace diptych::core {
 
-/// Pixels in rows, top row first. Buffers of layers that are not rendered are not allocated.
+/// Pixels in rows, top row first, as film_layout.h has them. Buffers of layers that are not rendered are not allocated.
 struct FilmMemory {
     int width = 0;
     int height = 0;
@@ -31,6 +31,10 @@ void enter_film(SceneAddresses& addresses, const FilmMemory& film);
 
 /// Copies the film to the host. Nothing may be in flight.
 Film read_film(const Gpu& gpu, const FilmMemory& film);
+
+/// The words of an array of film structs as they lie on the device.
+template <class Struct>
+std::vector<std::uint32_t> device_words(const std::vector<Struct>& structs);
 
 std::uint64_t film_bytes(const FilmMemory& film);
 
