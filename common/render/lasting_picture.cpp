@@ -25,6 +25,16 @@ void LastingPicture::render_missing(const std::atomic<bool>& cancel) const {
 }
 
 Film LastingPicture::film() const {
+    read();
+    return kept_;
+}
+
+Film LastingPicture::take_film() {
+    read();
+    return std::move(kept_);
+}
+
+void LastingPicture::read() const {
     outlast([&] {
         render_missing(cancel_);
         Film film = session_.film();
@@ -36,7 +46,6 @@ Film LastingPicture::film() const {
         }
         kept_end_ = end_;
     });
-    return kept_;
 }
 
 void LastingPicture::outlast(const std::function<void()>& work) const {

@@ -27,6 +27,8 @@ public:
     void move_to(const PackedScene&) override { refuse(); }
     double device_seconds() const override { return lost_seconds_ + session_.renderer().device_seconds(); }
     Film film() const override;
+    /// The film, of which no copy is kept.
+    Film take_film();
     TraversalBench bench_traversal(std::uint32_t) override { refuse(); }
 
     /// What is left after a loss that was the end: the film that was read last, and how many samples a pixel were
@@ -37,6 +39,7 @@ public:
 
 private:
     [[noreturn]] static void refuse() { throw Error("a lasting picture is only rendered"); }
+    void read() const;
     void outlast(const std::function<void()>& work) const;
     void go_on_after_loss() const;
     void render_missing(const std::atomic<bool>& cancel) const;

@@ -117,8 +117,10 @@ private:
 ProgressiveResult render_progressively(Renderer& renderer, const ProgressiveTarget& target,
                                        const std::atomic<bool>& cancel, const ProgressiveHooks& hooks) {
     const std::function<double()> now = hooks.now ? hooks.now : now_seconds;
-    const std::size_t pixels = renderer.film_in_place()->pixels.size();
-    const std::uint32_t samples_before = samples_of_every_pixel(*renderer.film_in_place());
+    const auto [pixels, samples_before] = [&] {  // and no film, which may be as large as what is left of the memory
+        const std::shared_ptr<const Film> film = renderer.film_in_place();
+        return std::pair(film->pixels.size(), samples_of_every_pixel(*film));
+    }();
     FilmWatch watch(now);
     ErrorTarget error(target.relmse, target.look_at);
     const std::uint32_t base_spp = hooks.base == nullptr ? 0 : samples_of_every_pixel(*hooks.base);

@@ -170,7 +170,7 @@ TEST_CASE("Frames of restir that lost their device begin anew, with the bits of 
 
 TEST_CASE("Devices may be lost one after another before a film has been read") {
     const Scene scene = generate_scene("cornell").scene;
-    Losses losses{.passing = {2, 1}};  // the second device is lost too, before its film is read
+    Losses losses{.passing = {2, 0}};  // the second device is lost at once
     Session session(scene, small_settings(), losing(losses));
     LossGuard guard(policy_of(OnDeviceLost::retry));
     LastingPicture picture(session, guard, never, {});

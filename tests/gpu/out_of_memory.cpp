@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kilobyte = 1024;
 
-RenderSettings settings_of(Integrator integrator, int size) {
+RenderSettings memory_settings(Integrator integrator, int size) {
     RenderSettings settings;
     settings.width = settings.height = size;
     settings.max_depth = 2;
@@ -25,7 +25,7 @@ RenderSettings settings_of(Integrator integrator, int size) {
 
 /// A scene that needs memory for every purpose of a renderer.
 PackedScene full_scene(int size) {
-    PackedScene packed = generated_scene("cornell", settings_of(Integrator::restir, size));
+    PackedScene packed = generated_scene("cornell", memory_settings(Integrator::ris, size));
     packed.texels.assign(4096, 0);
     return packed;
 }
@@ -70,7 +70,7 @@ TEST_CASE("Out of memory: each purpose is named, and nothing is left behind") {
         INFO(refusal);
         CHECK(refusal.find("Vulkan device " + gpu->name + ": out of memory: ") == 0);
         CHECK(refusal.find(std::string(" for ") + name_of(purpose) + " (a test); in use: ") != std::string::npos);
-        CHECK(std::regex_search(refusal, std::regex("free: [0-9.]+ [kMGT]?B of [0-9.]+ [kMGT]?B; ")));
+        CHECK(std::regex_search(refusal, std::regex("free: [0-9.]+ [kMGT]?B of [^;]+; ")));
         CHECK(bytes_in_use(*gpu) == 0);
     }
     gpu->faults.allocation = {};
@@ -82,7 +82,7 @@ TEST_CASE("Out of memory: each purpose is named, and nothing is left behind") {
 TEST_CASE("Recorded paths that find no memory leave the renderer as it was") {
     NEED_VULKAN();
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
-    const PackedScene packed = generated_scene("cornell", settings_of(Integrator::path, 16));
+    const PackedScene packed = generated_scene("cornell", memory_settings(Integrator::path, 16));
     const std::atomic<bool> cancel = false;
     PathRenderer renderer(gpu, packed);
     const std::vector<shared::PathQuery> query = {{{3, 4}, 0}};
@@ -95,10 +95,11 @@ TEST_CASE("Recorded paths that find no memory leave the renderer as it was") {
     check_no_validation_messages();
 }
 
-TEST_CASE("With little memory there are fewer paths in flight, less staging and smaller builds, and the same picture") {
-    NEED_VULKAN();
+namespace {
+
+void check_same_picture_with_little_memory(Integrator integrator) {
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
-    const PackedScene packed = generated_scene("cornell", settings_of(GENERATE(Integrator::path, Integrator::ris), 80));
+    const PackedScene packed = generated_scene("cornell", memory_settings(integrator, 80));
     const Film expected = render_all(gpu, packed);
     std::uint64_t most_paths = 0, most_staging = 0, most_readback = 0;
     int structures = 0;
@@ -128,6 +129,18 @@ TEST_CASE("With little memory there are fewer paths in flight, less staging and 
     check_no_validation_messages();
 }
 
+}  // namespace
+
+TEST_CASE("With little memory there are fewer paths in flight, less staging and smaller builds, and the same picture") {
+    NEED_VULKAN();
+    check_same_picture_with_little_memory(Integrator::path);
+}
+
+TEST_CASE("With little memory resampling gives the same picture", "[nightly]") {
+    NEED_VULKAN();
+    check_same_picture_with_little_memory(GENERATE(Integrator::ris, Integrator::restir));
+}
+
 TEST_CASE("A structure without room for its compacted copy stays as it was built") {
     NEED_VULKAN();
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
@@ -146,14 +159,14 @@ TEST_CASE("A structure without room for its compacted copy stays as it was built
 TEST_CASE("A picture too large for the device is refused before anything is allocated, with the size that fits") {
     NEED_VULKAN();
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
-    gpu->faults.memory = std::uint64_t{24} << 20U;
+    gpu->faults.memory = std::uint64_t{32} << 20U;
     int allocations = 0;
     gpu->faults.allocation = [&](Purpose, std::uint64_t) {
         ++allocations;
         return false;
     };
     const auto packed_at = [&](int size, bool layers) {
-        RenderSettings settings = settings_of(Integrator::path, size);
+        RenderSettings settings = memory_settings(Integrator::path, size);
         settings.standard_error = settings.first_hit_layers = layers;
         return generated_scene("cornell", settings);
     };
@@ -161,7 +174,7 @@ TEST_CASE("A picture too large for the device is refused before anything is allo
     INFO(refusal);
     CHECK(allocations == 0);
     CHECK(refusal.find(" at once: the film ") != std::string::npos);
-    CHECK(refusal.find("of 24.0 MB; ") != std::string::npos);
+    CHECK(refusal.find("of 32.0 MB; ") != std::string::npos);
     CHECK(refusal.find("without `layers`") != std::string::npos);
     std::smatch found;
     REQUIRE(std::regex_search(refusal, found, std::regex("a `size` of ([0-9]+)x([0-9]+) would fit")));
@@ -171,8 +184,8 @@ TEST_CASE("A picture too large for the device is refused before anything is allo
     // One more pixel a side would not fit.
     CHECK_FALSE(refusal_of([&] { require_memory(*gpu, packed_at(side + 1, true), {}); }) == "nothing was thrown");
     CHECK(refusal_of([&] { require_memory(*gpu, packed_at(side, true), {}); }) == "nothing was thrown");
-    CHECK(refusal_of([&] { require_memory(*gpu, packed_at(300, false), {}); }) == "nothing was thrown");
-    CHECK(film_bytes(std::uint64_t{300} * 300, features) < (std::uint64_t{24} << 20U));  // the copy on the host counts too
+    CHECK(refusal_of([&] { require_memory(*gpu, packed_at(400, false), {}); }) == "nothing was thrown");
+    CHECK(film_bytes(std::uint64_t{400} * 400, features) < (std::uint64_t{32} << 20U));  // copies on the host count too
     check_no_validation_messages();
 }
 
@@ -193,7 +206,7 @@ TEST_CASE("The plan of the memory is a lower bound of what a renderer holds") {
         CHECK((purpose == Purpose::paths_in_flight || held[place] < plan.rendering[place] + 64 * kilobyte));
     }
     const auto film = static_cast<std::size_t>(Purpose::film);
-    CHECK(plan.rendering[film] <= held[film] * (gpu->on_cpu ? 2 : 1));
+    CHECK(plan.rendering[film] <= held[film] * (gpu->on_cpu ? 3 : 1));
     CHECK(plan.building[static_cast<std::size_t>(Purpose::structures)] > 0);
     CHECK(total(held) <= heap_room(*gpu, largest_heap(*gpu)).size);
 }

@@ -17,7 +17,7 @@ std::uint64_t minus(std::uint64_t whole, std::uint64_t part) {
 
 HeapRoom heap_room(const Gpu& gpu, std::uint32_t heap) {
     const std::uint64_t ours = total(gpu.memory_use->bytes());
-    HeapRoom room{.size = gpu.memory.memoryHeaps[heap].size, .free = 0};
+    HeapRoom room{.size = gpu.memory.memoryHeaps[heap].size};
     room.free = minus(room.size, ours);
     if (gpu.has_memory_budget) {
         const auto budget = gpu.physical
@@ -28,10 +28,13 @@ HeapRoom heap_room(const Gpu& gpu, std::uint32_t heap) {
         room.free = minus(room.size, budget.heapUsage[heap]);
     }
     if (gpu.on_cpu || !(gpu.memory.memoryHeaps[heap].flags & vk::MemoryHeapFlagBits::eDeviceLocal)) {
-        room.free = std::min(room.free, minus(host_bytes_left(), gpu.on_cpu ? left_to_driver : 0));
+        const std::uint64_t left = minus(host_bytes_left(), gpu.on_cpu ? left_to_driver : 0);
+        room.of_host = left < room.free;
+        room.free = std::min(room.free, left);
     }
     if (gpu.faults.memory < room.size) {
         room.size = gpu.faults.memory;
+        room.of_host = false;
         room.free = std::min(room.free, minus(room.size, ours));
     }
     return room;

@@ -10,6 +10,7 @@ namespace diptych::core {
 struct HeapRoom {
     std::uint64_t size = 0;  // of the heap, or what this process may use of it (VK_EXT_memory_budget)
     std::uint64_t free = 0;  // of that
+    bool of_host = false;    // it is the machine, or a limit of the process, that leaves no more
 };
 
 /// Where the heap lies in the machine's own memory, what the machine and the limits of the process leave counts too. A

@@ -101,11 +101,11 @@ Buffer make_buffer(const Gpu& gpu, Purpose purpose, std::uint64_t size, vk::Buff
 
 Buffer make_largest_buffer(const Gpu& gpu, Purpose purpose, std::uint64_t size, std::uint64_t least,
                            vk::BufferUsageFlags usage, MemoryKind kind) {
-    while (size / 2 >= least) {
+    while (size > least) {
         try {
             return make_buffer(gpu, purpose, size, usage, kind);
         } catch (const OutOfMemory&) {
-            size /= 2;
+            size = std::max(size / 2, least);
         }
     }
     return make_buffer(gpu, purpose, size, usage, kind);

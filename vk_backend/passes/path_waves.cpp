@@ -72,11 +72,11 @@ std::uint64_t wave_path_bytes(std::uint32_t features) {
 
 WaveMemory make_wave_memory(const Gpu& gpu, std::uint32_t capacity, std::uint32_t features) {
     std::uint32_t fitting = capacity;
-    while (fitting / 2 >= fewest_paths) {
+    while (fitting > fewest_paths) {
         try {
             return allocate_waves(gpu, capacity, fitting, features);
         } catch (const OutOfMemory&) {
-            fitting /= 2;
+            fitting = std::max(fitting / 2, fewest_paths);
         }
     }
     return allocate_waves(gpu, capacity, fitting, features);

@@ -24,9 +24,9 @@ std::uint64_t pixels_of(const PackedScene& packed) {
     return std::uint64_t{packed.constants.size.x} * packed.constants.size.y;
 }
 
-/// A driver on the CPU shares the memory with the copy of the film that is read back.
+/// A driver on the CPU shares the memory with the copies that are read back: a new one beside the one before.
 std::uint64_t film_need(const Gpu& gpu, std::uint64_t pixels, std::uint32_t features) {
-    return film_bytes(pixels, features) * (gpu.on_cpu ? 2 : 1);
+    return film_bytes(pixels, features) * (gpu.on_cpu ? 3 : 1);
 }
 
 /// The largest picture of that shape, and whether one without layers, for which there would be room.

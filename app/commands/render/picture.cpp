@@ -140,7 +140,7 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
             result = can_be_lost ? render_progressively(lasting, *target, cancel, hooks)
                                  : render_progressively(session, *target, cancel, hooks);
         }
-        kept_film = work.whole(renderer.film_in_place());
+        kept_film = work.whole(can_be_lost ? std::make_shared<const Film>(lasting.take_film()) : renderer.film_in_place());
     } catch (const DeviceLost& error) {
         kept_film = work.whole(std::make_shared<Film>(lasting.kept()));
         result.spp = lasting.kept_samples();

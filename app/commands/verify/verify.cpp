@@ -86,7 +86,7 @@ public:
 private:
     std::mutex mutex_;
     std::uint32_t runs_;
-    std::string on_device_;
+    std::string on_device_ = "its first use";
     bool terminal_;
     bool shown_ = false;
     double next_ = 2;
