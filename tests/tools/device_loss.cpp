@@ -1,6 +1,7 @@
 // --on-device-lost: commands of this process on renderers that are lost on demand.
 #include "catch.h"
 
+#include <array>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -20,20 +21,24 @@ using diptych::core::image_tests::TemporaryFolder;
 
 namespace {
 
-/// The CPU's renderer, lost after so many render calls of all of them together; renderers made later hold.
+enum class Lost { in_render, in_restart };
+
+/// The CPU's renderer, lost in the call of that kind which counts `left` down to 0; renderers made later hold.
 class LosingRenderer final : public Renderer {
 public:
-    LosingRenderer(const PackedScene& packed, std::atomic<int>& left) : renderer_(make_cpu_renderer(packed, 1)), left_(left) {}
+    LosingRenderer(const PackedScene& packed, Lost where, std::atomic<int>& left)
+        : renderer_(make_cpu_renderer(packed, 1)), where_(where), left_(left) {}
     std::string backend() const override { return "vulkan"; }
     std::string device() const override { return "a device"; }
     Capabilities capabilities() const override { return {true, true, false, false}; }
     RendererCosts costs() const override { return renderer_->costs(); }
     void render(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) override {
-        lost_ = lost_ || left_-- == 1;
+        note(Lost::in_render);
         require();
         renderer_->render(first, count, cancel);
     }
     void restart(std::uint32_t seed) override {
+        note(Lost::in_restart);
         require();
         renderer_->restart(seed);
     }
@@ -53,6 +58,7 @@ public:
     TraversalBench bench_traversal(std::uint32_t samples) override { return renderer_->bench_traversal(samples); }
 
 private:
+    void note(Lost call) { lost_ = lost_ || (call == where_ && left_-- == 1); }
     void require() const {
         if (lost_) {
             throw DeviceLost("Vulkan, rendering: the device is lost");
@@ -60,15 +66,16 @@ private:
     }
 
     std::unique_ptr<Renderer> renderer_;
+    Lost where_;
     std::atomic<int>& left_;
     bool lost_ = false;
 };
 
-/// Runs the program. Its device is lost at the render call of that number; 0 is never.
-int run_losing(int call, std::vector<std::string> words) {
+/// Runs the program. Its device is lost in the call of that number; 0 is never.
+int run_losing(int call, std::vector<std::string> words, Lost where = Lost::in_render) {
     std::atomic<int> left = call;
     app::replace_renderers([&](const Scene&, const PackedScene& packed, const RenderRequest& request) {
-        return request.backend == "vulkan" ? std::unique_ptr<Renderer>(std::make_unique<LosingRenderer>(packed, left))
+        return request.backend == "vulkan" ? std::unique_ptr<Renderer>(std::make_unique<LosingRenderer>(packed, where, left))
                                            : make_cpu_renderer(packed, 1);
     });
     words.insert(words.begin(), "diptych");
@@ -90,7 +97,11 @@ std::vector<std::string> on_vulkan(const std::string& command, const std::string
     return words;
 }
 
-bool same_color(const std::string& a, const std::string& b) {
+std::string file_in(const TemporaryFolder& folder, const std::string& name) {
+    return (folder / name).string();
+}
+
+bool equal_colors(const std::string& a, const std::string& b) {
     return read_image(a).color.data == read_image(b).color.data;
 }
 
@@ -105,18 +116,17 @@ std::string text_in(const std::filesystem::path& path) {
 TEST_CASE("render: a picture whose device was lost is rendered to its end, or what there is is saved with exit code 3") {
     const TemporaryFolder folder;
     const auto render = [&](int call, const std::string& name, const std::string& choice) {
-        return run_losing(call, on_vulkan("render", cornell, {"--backend", "vulkan", "--spp", "40", "-o", (folder / name).string(),
+        return run_losing(call, on_vulkan("render", cornell, {"--backend", "vulkan", "--spp", "40", "-o", file_in(folder, name),
                                                               "--on-device-lost", choice}));
     };
     REQUIRE(render(0, "whole.exr", "stop") == 0);
     CHECK(render(3, "retried.exr", "retry") == 0);
-    CHECK(same_color((folder / "retried.exr").string(), (folder / "whole.exr").string()));
+    CHECK(equal_colors(file_in(folder, "retried.exr"), file_in(folder, "whole.exr")));
     CHECK(render(3, "finished.exr", "cpu") == 0);
-    CHECK(same_color((folder / "finished.exr").string(), (folder / "whole.exr").string()));
-    CHECK(read_image((folder / "finished.exr").string()).metadata.at("spp") == "40");
+    CHECK(equal_colors(file_in(folder, "finished.exr"), file_in(folder, "whole.exr")));
+    CHECK(read_image(file_in(folder, "finished.exr")).metadata.at("spp") == "40");
     CHECK(render(3, "stopped.exr", "stop") == 3);
-    CHECK_FALSE(std::filesystem::exists((folder / "stopped.part.exr").string()));
-    CHECK_FALSE(std::filesystem::exists((folder / "stopped.exr").string()));  // lost before the film was read for the first time
+    CHECK_FALSE(std::filesystem::exists(file_in(folder, "stopped.exr")));  // lost before the film was read for the first time
     CHECK(render(0, "unknown.exr", "never") == 2);
 }
 
@@ -126,13 +136,13 @@ TEST_CASE("render: frames of a sequence whose device was lost are those of one t
     const auto render = [&](int call, const std::string& name) {
         return run_losing(call, on_vulkan("render", moving_light,
                                           {"--backend", "vulkan", "--spp", "2", "--frames", "3", "--integrator", integrator,
-                                           "-o", (folder / (name + ".exr")).string(), "--on-device-lost", "retry"}));
+                                           "-o", file_in(folder, name + ".exr"), "--on-device-lost", "retry"}));
     };
     REQUIRE(render(0, "whole") == 0);
     REQUIRE(render(4, "retried") == 0);
     for (const char* frame : {".0000.exr", ".0001.exr", ".0002.exr"}) {
         INFO(integrator << " " << frame);
-        CHECK(same_color((folder / "whole").string() + frame, (folder / "retried").string() + frame));
+        CHECK(equal_colors(file_in(folder, "whole") + frame, file_in(folder, "retried") + frame));
     }
 }
 
@@ -145,7 +155,7 @@ TEST_CASE("verify: a run that lost its device is rendered again, or ends the ver
     };
     /// Name and text of all figures of a verification that was to retry. They show the p-values of all tiles.
     const auto figures_of = [&](int call, std::vector<std::string> more) {
-        const std::string figures = (folder / "figures").string();
+        const std::string figures = file_in(folder, "figures");
         std::filesystem::remove_all(figures);
         more.insert(more.end(), {"--on-device-lost", "retry", "-o", figures});
         CHECK(verify(call, more) == 0);
@@ -171,27 +181,32 @@ TEST_CASE("verify: a run that lost its device is rendered again, or ends the ver
 
 TEST_CASE("converge: a run that lost its device is rendered again, or the same command goes on") {
     const TemporaryFolder folder;
-    const auto converge = [&](int call, const std::string& name, const std::string& choice) {
-        return run_losing(call, on_vulkan("converge", cornell,
-                                          {"--methods", "vulkan:path", "--reference", "cpu:direct", "--spp-max", "4", "--runs",
-                                           "2", "-o", (folder / name).string(), "--on-device-lost", choice}));
+    // Each run begins with a restart.
+    const auto converge = [&](int run, const std::string& name, const std::string& choice) {
+        return run_losing(run,
+                          on_vulkan("converge", cornell,
+                                    {"--methods", "vulkan:path", "--reference", "cpu:direct", "--spp-max", "4", "--runs", "3",
+                                     "-o", file_in(folder, name), "--on-device-lost", choice}),
+                          Lost::in_restart);
     };
+    /// Run, samples and error of all rows.
     const auto errors = [&](const std::string& name) {
-        std::vector<std::string> rows;  // without the times
-        std::stringstream text(text_in((folder / name).string() + "/results.jsonl"));
+        std::vector<std::array<double, 3>> rows;
+        std::stringstream text(text_in(file_in(folder, name) + "/results.jsonl"));
         for (std::string line; std::getline(text, line);) {
-            nlohmann::json row = nlohmann::json::parse(line);
-            row.erase("device_seconds");
-            row.erase("wall_seconds");
-            rows.push_back(row.dump());
+            const nlohmann::json event = nlohmann::json::parse(line);
+            for (const nlohmann::json& row : event.value("checkpoints", nlohmann::json::array())) {
+                rows.push_back({event["run"], row["spp"], row["mse"]});
+            }
         }
         return rows;
     };
     REQUIRE(converge(0, "whole", "stop") == 0);
-    REQUIRE_FALSE(errors("whole").empty());
-    CHECK(converge(3, "retried", "retry") == 0);
+    REQUIRE(errors("whole").size() == 9);
+    CHECK(converge(2, "retried", "retry") == 0);
     CHECK(errors("retried") == errors("whole"));
-    CHECK(converge(1030, "stopped", "stop") == 3);
+    CHECK(converge(2, "stopped", "stop") == 3);
+    CHECK(errors("stopped").size() == 3);  // the run before the loss is kept
     CHECK(converge(0, "stopped", "stop") == 0);
     CHECK(errors("stopped") == errors("whole"));
 }

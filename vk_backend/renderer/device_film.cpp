@@ -24,9 +24,12 @@ DeviceFilm FilmUploader::upload(const Film& film) {
             uploader_ = std::make_unique<Uploader>(
                 *gpu_, std::clamp<std::uint64_t>(film_bytes(*film_), 4096, std::uint64_t{64} << 20U));
         }
-        uploader_->upload(film_->pixels, std::as_bytes(std::span(device_words(film.pixels))));
-        uploader_->upload(film_->moments, std::as_bytes(std::span(device_words(film.moments))));
-        uploader_->upload(film_->first_hits, std::as_bytes(std::span(device_words(film.first_hits))));
+        const auto upload = [&](const Buffer& buffer, const std::vector<std::uint32_t>& words) {
+            uploader_->upload(buffer, std::as_bytes(std::span(words)));
+        };
+        upload(film_->pixels, device_words(film.pixels));
+        upload(film_->moments, device_words(film.moments));
+        upload(film_->first_hits, device_words(film.first_hits));
         uploader_->finish();
         return DeviceFilm{.gpu = gpu_, .film = film_, .resampling = {}, .reservoir_set = 0};
     });

@@ -24,9 +24,10 @@ std::uint64_t pixels_of(const PackedScene& packed) {
     return std::uint64_t{packed.constants.size.x} * packed.constants.size.y;
 }
 
-/// A driver on the CPU shares the memory with the copies that are read back: a new one beside the one before.
+/// A driver on the CPU shares the memory with the host: with the film that was read last and the next one, or with the
+/// images that the film becomes.
 std::uint64_t film_need(const Gpu& gpu, std::uint64_t pixels, std::uint32_t features) {
-    return film_bytes(pixels, features) * (gpu.on_cpu ? 3 : 1);
+    return film_bytes(pixels, features) * (gpu.on_cpu ? 4 : 1);
 }
 
 /// The largest picture of that shape, and whether one without layers, for which there would be room.
