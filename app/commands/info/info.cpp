@@ -69,7 +69,7 @@ struct BufferSize {
 };
 
 /// The scene's buffers, then the film's, those that are empty left out.
-std::vector<BufferSize> buffer_sizes(const PackedScene& packed, const RenderSettings& settings) {
+std::vector<BufferSize> buffer_sizes(const PackedScene& packed, const RenderSettings& settings, bool on_device) {
     std::vector<BufferSize> sizes;
     const auto add = [&](const char* name, std::uint64_t bytes) {
         if (bytes > 0) {
@@ -79,8 +79,11 @@ std::vector<BufferSize> buffer_sizes(const PackedScene& packed, const RenderSett
 #define ADD_BUFFER(Type, name) add(#name, packed.name.size() * sizeof(packed.name[0]));
     SCENE_BUFFERS(ADD_BUFFER)
 #undef ADD_BUFFER
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+    std::uint64_t pixels = static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+    if (on_device) {
+        constexpr std::uint64_t block = 32;  // shaders/film_layout.h
+        pixels = (pixels + block - 1) / block * block;
+    }
     const auto feature = [&](std::uint32_t bit) { return (packed.features & bit) != 0; };
     add("film", pixels * sizeof(shared::FilmPixel));
     add("film_moments", feature(shared::FEATURE_STANDARD_ERROR) ? pixels * sizeof(shared::FilmMoments) : 0);
@@ -130,7 +133,7 @@ nlohmann::ordered_json gather(const Session& session) {
     json["left_out"] = feature_names(~packed.features);
     std::uint64_t bytes = 0;
     json["buffers"] = nlohmann::ordered_json::object();
-    for (const BufferSize& buffer : buffer_sizes(packed, settings)) {
+    for (const BufferSize& buffer : buffer_sizes(packed, settings, session.renderer().backend() == "vulkan")) {
         json["buffers"][buffer.name] = buffer.bytes;
         bytes += buffer.bytes;
     }
