@@ -6,8 +6,8 @@
 
 namespace diptych::core {
 
-/// The picture of a session as a renderer. After a loss the session is renewed, and the samples go on from the film that
-/// was read last, to which they are added. Frames of restir depend on the frames before, so there the picture begins
+/// The picture of a session as a renderer. After a loss the session is renewed, and the samples go on from the film
+/// that was read last, to which they are added. Frames of restir depend on the frames before, so there the picture begins
 /// anew. Either way the same samples are drawn as without a loss.
 class LastingPicture final : public Renderer {
 public:

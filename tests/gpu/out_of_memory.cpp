@@ -169,7 +169,9 @@ TEST_CASE("A structure without room for its compacted copy stays as it was built
     const PackedScene packed = random_scene(7, 1, 1, 50);
     const SceneMemory scene = upload_scene(*gpu, packed);
     int structures = 0;
-    gpu->faults.allocation = [&](Purpose asked, std::uint64_t) { return asked == Purpose::structures && ++structures == 2; };
+    gpu->faults.allocation = [&](Purpose asked, std::uint64_t) {
+        return asked == Purpose::structures && ++structures == 2;
+    };
     const BottomLevels levels = build_bottom_levels(*gpu, packed, scene, {});
     CHECK(structures == 2);
     CHECK(levels.addresses.at(0) != 0);

@@ -75,8 +75,13 @@ private:
 int run_losing(int call, std::vector<std::string> words, Lost where = Lost::in_render) {
     std::atomic<int> left = call;
     app::replace_renderers([&](const Scene&, const PackedScene& packed, const RenderRequest& request) {
-        return request.backend == "vulkan" ? std::unique_ptr<Renderer>(std::make_unique<LosingRenderer>(packed, where, left))
-                                           : make_cpu_renderer(packed, 1);
+        std::unique_ptr<Renderer> renderer;
+        if (request.backend == "vulkan") {
+            renderer = std::make_unique<LosingRenderer>(packed, where, left);
+        } else {
+            renderer = make_cpu_renderer(packed, 1);
+        }
+        return renderer;
     });
     words.insert(words.begin(), "diptych");
     std::vector<char*> arguments;
@@ -91,7 +96,8 @@ int run_losing(int call, std::vector<std::string> words, Lost where = Lost::in_r
 const std::string cornell = DIPTYCH_SOURCE_DIR "/scenes/cornell.gltf";
 const std::string moving_light = DIPTYCH_SOURCE_DIR "/scenes/moving-light.gltf";
 
-std::vector<std::string> on_vulkan(const std::string& command, const std::string& scene, std::vector<std::string> more) {
+std::vector<std::string> on_vulkan(const std::string& command, const std::string& scene,
+                                   std::vector<std::string> more) {
     std::vector<std::string> words = {command, scene, "--size", "16x16", "--max-depth", "2"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
@@ -113,11 +119,12 @@ std::string text_in(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("render: a picture whose device was lost is rendered to its end, or what there is is saved with exit code 3") {
+TEST_CASE("render: a picture whose device was lost is rendered to its end, or the render stops with exit code 3") {
     const TemporaryFolder folder;
     const auto render = [&](int call, const std::string& name, const std::string& choice) {
-        return run_losing(call, on_vulkan("render", cornell, {"--backend", "vulkan", "--spp", "40", "-o", file_in(folder, name),
-                                                              "--on-device-lost", choice}));
+        return run_losing(call, on_vulkan("render", cornell,
+                                          {"--backend", "vulkan", "--spp", "40", "-o", file_in(folder, name),
+                                           "--on-device-lost", choice}));
     };
     REQUIRE(render(0, "whole.exr", "stop") == 0);
     CHECK(render(3, "retried.exr", "retry") == 0);
@@ -126,7 +133,8 @@ TEST_CASE("render: a picture whose device was lost is rendered to its end, or wh
     CHECK(equal_colors(file_in(folder, "finished.exr"), file_in(folder, "whole.exr")));
     CHECK(read_image(file_in(folder, "finished.exr")).metadata.at("spp") == "40");
     CHECK(render(3, "stopped.exr", "stop") == 3);
-    CHECK_FALSE(std::filesystem::exists(file_in(folder, "stopped.exr")));  // lost before the film was read for the first time
+    // It was lost before the film was read for the first time.
+    CHECK_FALSE(std::filesystem::exists(file_in(folder, "stopped.exr")));
     CHECK(render(0, "unknown.exr", "never") == 2);
 }
 
@@ -135,8 +143,9 @@ TEST_CASE("render: frames of a sequence whose device was lost are those of one t
     const std::string integrator = GENERATE("path", "restir");
     const auto render = [&](int call, const std::string& name) {
         return run_losing(call, on_vulkan("render", moving_light,
-                                          {"--backend", "vulkan", "--spp", "2", "--frames", "3", "--integrator", integrator,
-                                           "-o", file_in(folder, name + ".exr"), "--on-device-lost", "retry"}));
+                                          {"--backend", "vulkan", "--spp", "2", "--frames", "3", "--integrator",
+                                           integrator, "-o", file_in(folder, name + ".exr"), "--on-device-lost",
+                                           "retry"}));
     };
     REQUIRE(render(0, "whole") == 0);
     REQUIRE(render(4, "retried") == 0);
@@ -185,8 +194,8 @@ TEST_CASE("converge: a run that lost its device is rendered again, or the same c
     const auto converge = [&](int run, const std::string& name, const std::string& choice) {
         return run_losing(run,
                           on_vulkan("converge", cornell,
-                                    {"--methods", "vulkan:path", "--reference", "cpu:direct", "--spp-max", "4", "--runs", "3",
-                                     "-o", file_in(folder, name), "--on-device-lost", choice}),
+                                    {"--methods", "vulkan:path", "--reference", "cpu:direct", "--spp-max", "4",
+                                     "--runs", "3", "-o", file_in(folder, name), "--on-device-lost", choice}),
                           Lost::in_restart);
     };
     /// Run, samples and error of all rows.

@@ -41,7 +41,8 @@ std::string size_text(std::uint64_t bytes) {
     for (; value >= 1000 && unit + 1 < units.size(); ++unit) {
         value /= 1024;
     }
-    return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.{}f} {}", value, value < 10 ? 2 : value < 100 ? 1 : 0, units[unit]);
+    const int digits = value < 10 ? 2 : value < 100 ? 1 : 0;
+    return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.{}f} {}", value, digits, units[unit]);
 }
 
 BytesByPurpose MemoryUse::bytes() const {

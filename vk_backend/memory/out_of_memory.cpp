@@ -30,7 +30,8 @@ const char* what_needs_less(Purpose purpose) {
 }
 
 void refuse(const Gpu& gpu, const std::string& need, const HeapRoom& room, const std::string& advice) {
-    const std::string whole = room.of_host ? "the machine's memory or of what the process may use" : size_text(room.size);
+    const std::string whole =
+        room.of_host ? "the machine's memory or of what the process may use" : size_text(room.size);
     throw OutOfMemory(fmt::format("Vulkan device {}: out of memory: {}; free: {} of {}; {}; the `backend` cpu needs no "
                                   "device",
                                   gpu.name, need, size_text(room.free), whole, advice));

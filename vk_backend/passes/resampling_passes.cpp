@@ -12,8 +12,8 @@ using Usage = vk::BufferUsageFlagBits;
 Buffer film_buffer(const Gpu& gpu, std::uint64_t bytes,
                    vk::BufferUsageFlags more = Usage::eTransferSrc) {
     return bytes == 0 ? Buffer{}
-                      : make_buffer(gpu, Purpose::reservoirs, bytes, Usage::eStorageBuffer | Usage::eShaderDeviceAddress | more,
-                                    MemoryKind::device);
+                      : make_buffer(gpu, Purpose::reservoirs, bytes,
+                                    Usage::eStorageBuffer | Usage::eShaderDeviceAddress | more, MemoryKind::device);
 }
 
 constexpr std::array<std::uint32_t, 3> empty_list = {0, 1, 1};  // an indirect command

@@ -31,7 +31,8 @@ void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& 
     }
     Uploader uploader(*gpu_);
     const Buffer list =
-        upload_array(*gpu_, uploader, Purpose::recorded_paths, queries, Usage::eStorageBuffer | Usage::eShaderDeviceAddress);
+        upload_array(*gpu_, uploader, Purpose::recorded_paths, queries,
+                     Usage::eStorageBuffer | Usage::eShaderDeviceAddress);
     uploader.finish();
     SceneAddresses all = addresses(*film_);
     all.path_queries = list.address;

@@ -117,7 +117,8 @@ TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
             integrate(recording, bindings, block, 0);
             return count_rays(*gpu_, memory);
         };
-        const std::uint64_t room = std::min(most_ray_bytes, largest_heap_bytes(*gpu_) / 4) / sizeof(shared::RecordedRay);
+        const std::uint64_t room =
+            std::min(most_ray_bytes, largest_heap_bytes(*gpu_) / 4) / sizeof(shared::RecordedRay);
         Block block{{0, 0, constants_.size.x, constants_.size.y}, std::max(samples, 1U)};
         std::uint64_t rays = rays_of(block);
         while (rays > room && block.region.height > 1) {

@@ -114,8 +114,8 @@ Buffer upload_transforms(const Gpu& gpu, const PackedScene& packed, const Instan
 }
 
 Buffer structure_buffer(const Gpu& gpu, std::uint64_t bytes) {
-    return make_buffer(gpu, Purpose::structures, bytes, Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress,
-                       MemoryKind::device);
+    return make_buffer(gpu, Purpose::structures, bytes,
+                       Usage::eAccelerationStructureStorageKHR | Usage::eShaderDeviceAddress, MemoryKind::device);
 }
 
 vk::raii::AccelerationStructureKHR place_structure(const Gpu& gpu, const Buffer& storage, std::uint64_t offset,
@@ -202,8 +202,8 @@ void compact_batch(const Gpu& gpu, const Batch& batch, std::span<const std::size
     });
 }
 
-/// Builds and compacts. Where memory is short it goes in halves; a single structure stays as it was built if there is no
-/// room for its compacted copy.
+/// Builds and compacts. Where memory is short it goes in halves; a single structure stays as it was built if there is
+/// no room for its compacted copy.
 void build_and_compact(const Gpu& gpu, std::span<StructureBuild> builds, std::span<const std::size_t> indices,
                        BottomLevels& levels) {
     const std::size_t half = builds.size() / 2;
