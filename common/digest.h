@@ -14,4 +14,9 @@ inline std::uint64_t digest_of(std::span<const unsigned char> bytes, std::uint64
     return hash;
 }
 
+/// The same step for a word at a time, which gives another digest.
+inline std::uint64_t digest_with_word(std::uint64_t hash, std::uint32_t word) {
+    return (hash ^ word) * 0x100000001b3U;
+}
+
 }  // namespace diptych::core

@@ -220,6 +220,10 @@ std::optional<WordChannels> read_words(const fs::path& path) {
         words.data.resize(static_cast<std::size_t>(words.width) * static_cast<std::size_t>(words.height) *
                           words.names.size());
         file->read(0, static_cast<int>(begin - names.begin()), static_cast<int>(end - names.begin()), words.data);
+        const auto digest = header.attributes.find(word_digest_attribute);
+        if (digest == header.attributes.end() || digest->second != words_digest(words)) {
+            fail("the sums of its samples are damaged");
+        }
         return words;
     });
 }

@@ -115,6 +115,9 @@ void write_exr(const std::filesystem::path& path, const LayeredImage& layers, co
             attributes[metadata_prefix + name] = value;
         }
     }
+    if (words != nullptr) {
+        attributes[word_digest_attribute] = words_digest(*words);
+    }
     write_exr_channels(path, all, names, attributes, words);
 }
 

@@ -11,6 +11,9 @@ namespace diptych::core {
 /// picture, who read a range of channels, need not read the words.
 inline constexpr const char* word_prefix = "sums.";
 
+/// The string attribute of the file that holds words_digest.
+inline constexpr const char* word_digest_attribute = "diptych:sums_digest";
+
 /// One uint channel for each name; `data` is row-major from the top, channels interleaved.
 struct WordChannels {
     int width = 0;
@@ -18,5 +21,8 @@ struct WordChannels {
     std::vector<std::string> names;  // without word_prefix
     std::vector<std::uint32_t> data;
 };
+
+/// In hexadecimal. Files have an order of channels of their own, which makes no difference.
+std::string words_digest(const WordChannels& words);
 
 }  // namespace diptych::core

@@ -91,6 +91,20 @@ std::vector<bool> used_words(const Words<const std::uint32_t>& words) {
     return used;
 }
 
+/// A sum's highest digit is within the range of doubles, which the oracle sums. Merging takes a step for each digit.
+void check_bases(const Film& film) {
+    constexpr shared::uint most = 128;
+    const auto is_good = [&](std::size_t i) {
+        return film.pixels[i].sum.base <= most && (film.moments.empty() || film.moments[i].squares.base <= most) &&
+               (film.first_hits.empty() || film.first_hits[i].depth.base <= most);
+    };
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        if (!is_good(i)) {
+            throw std::runtime_error("the sum of a pixel is out of range");
+        }
+    }
+}
+
 /// Where a channel's words lie in the film.
 struct Place {
     const std::uint32_t* first;
@@ -145,6 +159,7 @@ Film film_of_words(const WordChannels& words, bool moments, bool first_hits) {
                 words.data[i * words.names.size() + channel];
         }
     }
+    check_bases(film);
     return film;
 }
 

@@ -12,7 +12,7 @@ namespace diptych::core {
 namespace {
 
 [[noreturn]] void fail(const std::string& text) {
-    throw Error(fmt::format("'{}' is no range of samples; write FIRST:END, as 0:64 for the first 64", text));
+    throw Error(fmt::format("'{}' is no range of samples; write FIRST:END with END up to 4294967295, as 0:64 for the first 64", text));
 }
 
 /// The whole text as a number.

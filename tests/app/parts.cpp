@@ -1,6 +1,8 @@
 // Parts of a picture's samples, and `merge`.
 #include "catch.h"
 
+#include <algorithm>
+
 #include "image/layered_image.h"
 #include "process.h"
 #include "render/film_file.h"
@@ -104,6 +106,40 @@ TEST_CASE("merge names the part that does not belong, and the samples that are m
     REQUIRE(words);
     write_exr(folder.file("old.exr"), layers, &*words);
     refuse({first, folder.file("old.exr")}, {"old.exr", "diptych 0.0.1"});
+}
+
+TEST_CASE("a part whose sums are damaged is refused by name", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell");
+    const std::string part = folder.file("part.exr");
+    REQUIRE(run_diptych(folder, render(scene, part, {"--samples", "0:2"})).exit_code == 0);
+    const LayeredImage layers = read_image(part);
+    WordChannels words = *read_words(part);
+    words.data[5] ^= 4U;
+    write_exr(folder.file("other.exr"), layers, &words);  // a whole file: its digest is that of its words
+    CHECK(read_film(folder.file("other.exr")));
+    const std::string bytes = file_text(part);
+    std::size_t refused = 0;
+    for (const double place : {0.3, 0.5, 0.6, 0.7, 0.8, 0.9}) {
+        std::string damaged = bytes;
+        damaged[static_cast<std::size_t>(place * static_cast<double>(bytes.size()))] ^= 16;
+        write_text(folder.file("damaged.exr"), damaged);
+        const ProcessResult result = run_diptych(folder, {"merge", folder.file("damaged.exr"), "-o", folder.file("o.exr")});
+        INFO(place << ": " << result.err);
+        if (result.exit_code == 0) {  // the damage is in what was developed from the sums, which is not read
+            CHECK(read_image(folder.file("o.exr")).color.data == layers.color.data);
+            continue;
+        }
+        CHECK(result.exit_code == 2);
+        CHECK(contains(result.err, "damaged.exr: "));
+        ++refused;
+    }
+    CHECK(refused > 0);
+    // A digit out of all range, which merging would count up to.
+    words.data[std::size_t(std::find(words.names.begin(), words.names.end(), "radiance.base") - words.names.begin())] = ~0U;
+    write_exr(folder.file("range.exr"), layers, &words);
+    check_refusal(run_diptych(folder, {"merge", folder.file("range.exr"), "-o", folder.file("o.exr")}), 2,
+                  {"range.exr", "out of range"});
 }
 
 TEST_CASE("a part of the samples is refused where samples cannot be taken apart", "[app]") {

@@ -67,6 +67,9 @@ void add_part(const Part& part, const FilmFile& file, const std::vector<Part>& p
         throw Error(fmt::format("{}: is no part of the same picture as {}: {}", part.path, parts.front().path, difference));
     }
     for (const Part& other : parts) {
+        if (other.path == part.path) {
+            throw Error(fmt::format("{}: is given twice", part.path));
+        }
         if (const std::optional<SampleRange> shared = other.samples.shared_with(part.samples)) {
             throw Error(fmt::format("{}: has samples {} in common with {}", part.path, range_text(*shared), other.path));
         }
@@ -133,8 +136,8 @@ int run_merge(const MergeOptions& options) {
     }
     describe(options, whole);
     save_film_file(whole, options.output, options.sums || !missing.empty());
-    print_note("{}: {}x{}, samples {} of {} parts\n", options.output, whole.film.width, whole.film.height,
-               whole.samples.text(), parts.size());
+    print_note("{}: {}x{}, samples {} of {} part{}\n", options.output, whole.film.width, whole.film.height,
+               whole.samples.text(), parts.size(), parts.size() == 1 ? "" : "s");
     return exit_done;
 }
 

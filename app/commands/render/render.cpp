@@ -38,7 +38,7 @@ constexpr const char* render_examples = R"(Examples:
   diptych render scene.glb -o walk.####.exr --frames 96 --fps 24 --camera moving
   diptych render scene.glb -o around.png --frames 36 --orbit 10 --tonemap aces
   diptych render scene.glb -o film.####.exr --frames 96 --integrator restir --spp 1 --warm-up 24
-  diptych render scene.glb -o night.exr --spp 65536 --checkpoint night.part.exr --every 300
+  diptych render scene.glb -o night.exr --spp 65536 --checkpoint night.check.exr --every 300
   diptych render scene.glb -o part2.exr --samples 512:1024
 --frames plays the scene's animations from --start on and writes one file per frame. #### in the file name stands
 for the frame number; without it the number comes before the extension. Frame i has the seed --seed + i. With
@@ -79,7 +79,11 @@ struct RenderOptions {
 void check_parts(RenderOptions& options) {
     RenderRequest& request = options.arguments.request;
     if (options.samples_option->count() > 0) {
-        request.samples = parse_range(options.samples);
+        try {
+            request.samples = parse_range(options.samples);
+        } catch (const Error& error) {
+            throw Error(fmt::format("--samples: {}", error.what()));
+        }
         request.spp = static_cast<std::uint32_t>(request.samples->end - request.samples->first);
         request.sums = true;
     }
@@ -109,7 +113,7 @@ void check_parts(RenderOptions& options) {
         }
     }
     if (!options.files.checkpoint.empty() && image_format(options.files.checkpoint) != ImageFormat::Exr) {
-        throw Error(fmt::format("--checkpoint {}: is an .exr file", options.files.checkpoint));
+        throw Error(fmt::format("--checkpoint {}: must be an .exr file", options.files.checkpoint));
     }
 }
 
@@ -179,6 +183,10 @@ void check_render_options(RenderOptions& options) {
     refuse_inputs(written_files(request, options.files), request);
     if (!options.files.checkpoint.empty()) {
         check_writable(options.files.checkpoint);
+        if (std::filesystem::weakly_canonical(options.files.checkpoint) == std::filesystem::weakly_canonical(request.output)) {
+            throw Error(fmt::format("--checkpoint {}: is -o too, which is written when the picture is done; give another",
+                                    options.files.checkpoint));
+        }
     }
     if (request.frames == 0) {
         refuse_to_lose(request, options.files);
@@ -247,7 +255,7 @@ void add_render(CLI::App& app, Run& run) {
     RenderRequest& request = options->arguments.request;
     command->add_option("scene", request.scene, ".gltf or .glb file")->required();
     command->add_option("-o,--output", request.output, "Image to write: .exr, .png or .hdr")->required();
-    CLI::Option* spp = command->add_option("--spp", request.spp, "Samples per pixel, those of a resumed file included")
+    CLI::Option* spp = command->add_option("--spp", request.spp, "Samples per pixel in all, those of a resumed file among them")
                            ->check(CLI::Range(1U, 4294967295U))
                            ->capture_default_str();
     options->spp_option = spp;

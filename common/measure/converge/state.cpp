@@ -13,6 +13,7 @@
 
 #include "error.h"
 #include "image/atomic_file.h"
+#include "input_file.h"
 #include "measure/converge/checked_file.h"
 #include "measure/converge/method.h"
 
@@ -44,9 +45,13 @@ void put(std::string& bytes, const std::vector<float>& values) {
 
 ConvergeState::ConvergeState(const std::string& folder) : folder_(folder) {
     const std::string name = path("results.jsonl");
+    if (!fs::exists(name)) {
+        return;
+    }
+    require_input(name);
     std::ifstream file(name, std::ios::binary);
     if (!file) {
-        return;
+        throw Error(fmt::format("{}: cannot read", name));
     }
     std::ostringstream stream;
     stream << file.rdbuf();
