@@ -62,7 +62,9 @@ std::function<void(const Film&)> PictureWork::checkpoints() {
     }
     fingerprint();  // now, because the checkpoints are written in the background
     const Stopwatch watch;
-    const auto writer = std::make_shared<Checkpoints>(files_.every, [this, watch](const Film& film) {
+    // Asked for now too, because a session that loses its device replaces its renderer.
+    const std::string device = session_.renderer().device();
+    const auto writer = std::make_shared<Checkpoints>(files_.every, [this, watch, device](const Film& film) {
         ProgressiveResult so_far;
         so_far.spp = samples_of_every_pixel(film) - kept_.spp;
         so_far.seconds = watch.seconds();
@@ -70,7 +72,7 @@ std::function<void(const Film&)> PictureWork::checkpoints() {
         RenderRequest request = request_;
         request.output = checkpoint();
         request.sums = true;
-        save_film(film, request, outcome_of(so_far, film, session_.renderer().device()));
+        save_film(film, request, outcome_of(so_far, film, device));
     });
     return [writer](const Film& film) { writer->offer(film); };
 }
