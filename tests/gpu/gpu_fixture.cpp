@@ -8,6 +8,7 @@
 #include "pipelines/bindings.h"
 #include "commands/commands.h"
 #include "memory/film_memory.h"
+#include "passes/pass_pipelines.h"
 #include "renderer/path_renderer.h"
 #include "pipelines/pipeline.h"
 #include "generate/generate.h"
@@ -61,9 +62,10 @@ std::vector<TracedRay> trace_rays(const PackedScene& packed, const std::vector<s
     const PipelineLayout layout = make_pipeline_layout(gpu);
     const vk::raii::PipelineCache cache = open_pipeline_cache(gpu, {});
     const bool alpha = (packed.features & shared::FEATURE_ALPHA) != 0;
+    const PipelineConstants specialised{.features = packed.features, .groups = groups.groups.empty() ? 0U : 1U};
+    const PipelineShaders shaders = scene_shaders(test_shader_binary("trace_rays.rgen"), alpha);
     const TracePipeline pipeline =
-        make_pipeline(gpu, layout, cache, scene_shaders(test_shader_binary("trace_rays.rgen"), alpha),
-                      {.features = packed.features, .groups = groups.groups.empty() ? 0U : 1U});
+        with_table(gpu, compile_trace_shaders(gpu, layout, cache, shaders, specialised));
     const Bindings bindings = make_bindings(gpu, layout, {.scene = *top.structure}, addresses, packed.constants);
     run_commands(gpu, [&](Recorder& recorder) {
         record_dispatch(recorder, pipeline, layout, bindings, {}, static_cast<std::uint32_t>(rays.size()), 1);

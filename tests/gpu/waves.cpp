@@ -36,14 +36,14 @@ TEST_CASE("Paths longer than a submission has waves go on in the next, and no lo
     check_no_validation_messages();
 }
 
-TEST_CASE("Paths in flight: one a pixel, within bounds") {
+TEST_CASE("Paths in flight: as many as are to be traced, within bounds") {
     NEED_VULKAN();
     const std::shared_ptr<Gpu> gpu = open_test_gpu();
     const std::uint32_t fewest = path_capacity(*gpu, 1);
     const std::uint32_t most = path_capacity(*gpu, std::uint64_t{1} << 40U);
     CHECK(fewest == 1U << 16U);
     CHECK(most >= fewest);
-    CHECK(most <= 1U << 21U);
+    CHECK(most <= 1U << 22U);
     CHECK(path_capacity(*gpu, most) == most);
     CHECK(path_capacity(*gpu, (fewest + most) / 2) == (fewest + most) / 2);
 
@@ -61,6 +61,27 @@ TEST_CASE("Paths in flight: one a pixel, within bounds") {
     CHECK(bytes_with(Integrator::ris, 3) - of_ris == of_path);
     settings.resampling.bsdf_candidate = false;  // then no list of those that need rays, which begins with an indirect command
     CHECK(of_ris - bytes_with(Integrator::ris, 1) == 3 * sizeof(std::uint32_t) + std::uint64_t{64} * sizeof(shared::CandidateRequest));
+}
+
+TEST_CASE("A small picture has several samples of each pixel in flight, and keeps its bits") {
+    NEED_VULKAN();
+    RenderSettings settings;
+    settings.width = settings.height = 16;
+    settings.max_depth = 2;
+    const PackedScene packed = generated_scene("cornell", settings);
+    PathRenderer few(packed, test_options(), {.slice_budget = 4096});
+    PathRenderer many(packed, test_options(), {.slice_budget = 1U << 20U, .fill = DeviceFill::anywhere});
+    const std::uint64_t bytes = few.costs().pass_bytes;
+    const Film first = render_film(few, 300);
+    CHECK(few.costs().pass_bytes == bytes);
+    CHECK(many.costs().pass_bytes == bytes);  // no more than are asked for
+    CHECK(same_film(render_film(many, 300), first));
+    CHECK(many.costs().pass_bytes > bytes);
+    const std::uint64_t grown = many.costs().pass_bytes;
+    many.restart(0);
+    CHECK(same_film(render_film(many, 300), first));
+    CHECK(many.costs().pass_bytes == grown);
+    check_no_validation_messages();
 }
 
 }  // namespace diptych::core::tests

@@ -29,6 +29,8 @@ public:
     SliceCursor(Region region, std::uint32_t first_sample, std::uint32_t sample_count);
 
     bool done() const { return remaining_ == 0 || region_.width == 0 || region_.height == 0; }
+    /// Pixel samples that are left, with those of a started row or picture.
+    std::uint64_t left() const { return std::uint64_t{region_.width} * region_.height * remaining_; }
     /// The next slice, with at most max(1, budget) pixel samples and max(1, pixel_limit) pixels. Requires !done().
     Slice next(std::uint64_t budget, std::uint64_t pixel_limit);
 

@@ -48,7 +48,9 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint
 
 void find_memory_limits(Gpu& gpu) {
     gpu.memory = gpu.physical.getMemoryProperties();
-    gpu.on_cpu = gpu.physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+    const vk::PhysicalDeviceProperties properties = gpu.physical.getProperties();
+    gpu.on_cpu = properties.deviceType == vk::PhysicalDeviceType::eCpu;
+    gpu.most_workgroups = properties.limits.maxComputeWorkGroupCount[0];
     gpu.has_memory_budget = has_extension(gpu.physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     gpu.largest_allocation =
         gpu.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>()

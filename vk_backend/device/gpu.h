@@ -33,6 +33,7 @@ struct Gpu {
     vk::PhysicalDeviceMemoryProperties memory;
     vk::PhysicalDeviceRayTracingPipelinePropertiesKHR ray_tracing;
     std::uint64_t scratch_alignment = 1;  // of acceleration structure builds
+    std::uint32_t most_workgroups = 65535;  // of a dispatch in one dimension
     double tick_seconds = 0;              // of a timestamp; 0 if the queue has none
     std::uint64_t tick_mask = 0;          // valid bits of a timestamp
     mutable std::mutex queue_mutex;       // held during submit, present and waiting for the queue

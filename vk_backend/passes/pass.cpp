@@ -12,6 +12,10 @@ void bind(const vk::raii::CommandBuffer& commands, vk::PipelineBindPoint point, 
 
 }  // namespace
 
+std::uint64_t most_invocations(const Gpu& gpu) {
+    return std::uint64_t{gpu.most_workgroups} * shared::WAVE_GROUP;
+}
+
 std::uint32_t groups_for(std::uint64_t invocations) {
     return static_cast<std::uint32_t>((invocations + shared::WAVE_GROUP - 1) / shared::WAVE_GROUP);
 }

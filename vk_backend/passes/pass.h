@@ -11,8 +11,8 @@
 
 namespace diptych::core {
 
-/// The most invocations, in workgroups of WAVE_GROUP, that every device supports in one dispatch.
-constexpr std::uint64_t most_invocations = std::uint64_t{65535} * shared::WAVE_GROUP;
+/// The most invocations, in workgroups of WAVE_GROUP, of one dispatch.
+std::uint64_t most_invocations(const Gpu& gpu);
 
 /// Number of workgroups of WAVE_GROUP.
 std::uint32_t groups_for(std::uint64_t invocations);

@@ -16,9 +16,9 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-constexpr std::uint64_t most_paths = std::uint64_t{1} << 21U;  // then the fixed cost of a wave is small
+constexpr std::uint64_t most_paths = std::uint64_t{1} << 22U;  // then the fixed cost of a wave is small
 constexpr std::uint64_t fewest_wanted = std::uint64_t{1} << 16U;
-static_assert(most_paths <= most_invocations);
+
 constexpr std::uint64_t part_of_memory = 16;
 constexpr std::uint32_t all_buffers = shared::FEATURE_FIRST_HIT_LAYERS | shared::FEATURE_LIGHT_SAMPLING;
 
@@ -59,10 +59,11 @@ WaveMemory allocate_waves(const Gpu& gpu, std::uint32_t wanted, std::uint32_t ca
 
 }  // namespace
 
-std::uint32_t path_capacity(const Gpu& gpu, std::uint64_t pixels) {
+std::uint32_t path_capacity(const Gpu& gpu, std::uint64_t paths) {
     const std::uint64_t bytes = largest_heap_bytes(gpu, vk::MemoryHeapFlagBits::eDeviceLocal);
     const std::uint64_t room = bytes / part_of_memory / wave_path_bytes(all_buffers);
-    return static_cast<std::uint32_t>(std::clamp(pixels, fewest_wanted, std::clamp(room, fewest_wanted, most_paths)));
+    const std::uint64_t most = std::clamp(room, fewest_wanted, std::min(most_paths, most_invocations(gpu)));
+    return static_cast<std::uint32_t>(std::clamp(paths, fewest_wanted, most));
 }
 
 std::uint64_t wave_path_bytes(std::uint32_t features) {

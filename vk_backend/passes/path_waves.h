@@ -7,9 +7,9 @@
 
 namespace diptych::core {
 
-/// Number of paths in flight for a film of `pixels`: one per pixel, within bounds and a share of the device's memory.
-/// A small film has several samples of each pixel in flight; a very large one is rendered in parts.
-std::uint32_t path_capacity(const Gpu& gpu, std::uint64_t pixels);
+/// Number of paths in flight where `paths` are to be traced: all of them, within bounds and a share of the device's
+/// memory.
+std::uint32_t path_capacity(const Gpu& gpu, std::uint64_t paths);
 
 /// Fewer paths at a time cost time and change no result. Below this number a wave is mostly its fixed cost.
 inline constexpr std::uint32_t fewest_paths = 4096;

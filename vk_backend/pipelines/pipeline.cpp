@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "../../shaders/dispatch.h"
@@ -110,8 +111,9 @@ PipelineLayout make_pipeline_layout(const Gpu& gpu) {
     return made;
 }
 
-TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const vk::raii::PipelineCache& cache,
-                            const PipelineShaders& shaders, const PipelineConstants& constants) {
+vk::raii::Pipeline compile_trace_shaders(const Gpu& gpu, const PipelineLayout& layout,
+                                         const vk::raii::PipelineCache& cache, const PipelineShaders& shaders,
+                                         const PipelineConstants& constants) {
     const vk::SpecializationInfo specialization = specialize(constants);
 
     std::vector<vk::raii::ShaderModule> modules;
@@ -139,9 +141,13 @@ TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const 
     info.setStages(stages).setGroups(groups);
     info.maxPipelineRayRecursionDepth = 1;
     info.layout = *layout.layout;
+    return in_context("compiling the shaders",
+                      [&] { return gpu.device.createRayTracingPipelineKHR(nullptr, cache, info); });
+}
+
+TracePipeline with_table(const Gpu& gpu, vk::raii::Pipeline compiled) {
     TracePipeline built;
-    built.pipeline = in_context("compiling the shaders",
-                                [&] { return gpu.device.createRayTracingPipelineKHR(nullptr, cache, info); });
+    built.pipeline = std::move(compiled);
     fill_table(gpu, built);
     return built;
 }

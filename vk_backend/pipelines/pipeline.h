@@ -53,10 +53,15 @@ struct PipelineConstants {
     std::uint32_t groups = 0;       // 1 if instances may be grouped
 };
 
-TracePipeline make_pipeline(const Gpu& gpu, const PipelineLayout& layout, const vk::raii::PipelineCache& cache,
-                            const PipelineShaders& shaders, const PipelineConstants& constants);
+/// Compiles the shaders of a trace pipeline. May be called from any thread.
+vk::raii::Pipeline compile_trace_shaders(const Gpu& gpu, const PipelineLayout& layout,
+                                         const vk::raii::PipelineCache& cache, const PipelineShaders& shaders,
+                                         const PipelineConstants& constants);
 
-/// A pipeline for a compute shader with the layout of all pipelines.
+/// A compiled pipeline with its shader binding table.
+TracePipeline with_table(const Gpu& gpu, vk::raii::Pipeline compiled);
+
+/// A pipeline for a compute shader with the layout of all pipelines. May be called from any thread.
 vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const PipelineLayout& layout,
                                          const vk::raii::PipelineCache& cache, Spirv shader,
                                          const PipelineConstants& constants);

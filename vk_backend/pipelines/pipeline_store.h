@@ -19,23 +19,27 @@ struct PipelineStore {
     std::map<PipelineKey, ComputePipeline> compute;
 };
 
-/// The pipeline of that key; the first time, what `compile` makes. Any thread may ask, and none waits for another's
-/// compiler.
-template <typename Pipeline, typename Compile>
-const Pipeline& stored_pipeline(const Gpu& gpu, std::map<PipelineKey, Pipeline> PipelineStore::*kind,
-                                const PipelineKey& key, const Compile& compile) {
-    {
-        const std::lock_guard lock(gpu.pipelines_mutex);
-        if (gpu.pipelines == nullptr) {
-            gpu.pipelines = std::make_shared<PipelineStore>();
-        }
-        const auto& pipelines = (*gpu.pipelines).*kind;
-        if (const auto found = pipelines.find(key); found != pipelines.end()) {
-            return found->second;
-        }
-    }
-    Pipeline made = compile();
+/// The pipeline of that key, or null. May be called from any thread.
+template <typename Pipeline>
+const Pipeline* find_pipeline(const Gpu& gpu, std::map<PipelineKey, Pipeline> PipelineStore::*kind,
+                              const PipelineKey& key) {
     const std::lock_guard lock(gpu.pipelines_mutex);
+    if (gpu.pipelines == nullptr) {
+        return nullptr;
+    }
+    const auto& pipelines = (*gpu.pipelines).*kind;
+    const auto found = pipelines.find(key);
+    return found != pipelines.end() ? &found->second : nullptr;
+}
+
+/// Stores a pipeline, unless another thread has stored one of that key since. Returns the stored one.
+template <typename Pipeline>
+const Pipeline& store_pipeline(const Gpu& gpu, std::map<PipelineKey, Pipeline> PipelineStore::*kind,
+                               const PipelineKey& key, Pipeline made) {
+    const std::lock_guard lock(gpu.pipelines_mutex);
+    if (gpu.pipelines == nullptr) {
+        gpu.pipelines = std::make_shared<PipelineStore>();
+    }
     return ((*gpu.pipelines).*kind).try_emplace(key, std::move(made)).first->second;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "error.h"
+#include "passes/pass_pipelines.h"
 #include "renderer/path_renderer.h"
 #include "memory/readback.h"
 #include "shader_binaries.h"
@@ -25,7 +26,10 @@ Buffer record_buffer(const Gpu& gpu, std::uint64_t bytes) {
 void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& constants,
                                 std::uint32_t vertices_per_path, const Buffer& vertices, const Buffer& summaries) {
     require_bound();
-    const TracePipeline& recording = pipeline(shader_binary("record.rgen"));
+    const TracePipeline* recording = nullptr;
+    PassPipelines pipelines(*gpu_, layout_, pipeline_constants(false));
+    pipelines.want(recording, shader_binary("record.rgen"));
+    pipelines_compiled_ += pipelines.complete();
     if (!recording_speed_) {
         recording_speed_.emplace(dispatch_seconds_);
     }
@@ -47,7 +51,7 @@ void PathRenderer::trace_listed(Queries queries, const shared::RenderConstants& 
         dispatch.first_path = static_cast<std::uint32_t>(first);
         dispatch.vertices_per_path = vertices_per_path;
         queue.submit(count, [&](Recorder& recorder) {
-            record_dispatch(recorder, recording, layout_, bindings, dispatch, static_cast<std::uint32_t>(count), 1);
+            record_dispatch(recorder, *recording, layout_, bindings, dispatch, static_cast<std::uint32_t>(count), 1);
         });
         first += count;
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "clock.h"
-#include "passes/pass_table.h"
+#include "passes/pass_pipelines.h"
 #include "renderer/memory_plan.h"
 #include "shader_binaries.h"
 
@@ -23,20 +23,6 @@ PathRendererOptions with_options(PathRendererOptions changes, const VulkanOption
 constexpr std::uint64_t least_slice = 4096;  // paths
 
 }  // namespace
-
-PipelineShaders scene_shaders(Spirv ray_generation, bool alpha) {
-    PipelineShaders shaders{.ray_generation = ray_generation,
-                            .closest_hit = shader_binary("closest.rchit"),
-                            .closest_miss = shader_binary("closest.rmiss"),
-                            .shadow_miss = shader_binary("shadow.rmiss"),
-                            .closest_any_hit = {},
-                            .shadow_any_hit = {}};
-    if (alpha) {
-        shaders.closest_any_hit = shader_binary("closest.rahit");
-        shaders.shadow_any_hit = shader_binary("shadow.rahit");
-    }
-    return shaders;
-}
 
 void record_dispatch(Recorder& recorder, const TracePipeline& pipeline, const PipelineLayout& layout,
                      const Bindings& bindings, const shared::Dispatch& dispatch, std::uint32_t width,
@@ -145,77 +131,48 @@ PipelineConstants PathRenderer::pipeline_constants(bool record_rays) const {
         .features = features_, .record_rays = record_rays ? 1U : 0U, .groups = bottom_.groups.groups.empty() ? 0U : 1U};
 }
 
-TracePipeline PathRenderer::compile(Spirv ray_generation, bool record_rays) const {
-    const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
-    const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
-    const bool alpha = (features_ & shared::FEATURE_ALPHA) != 0;
-    TracePipeline pipeline =
-        make_pipeline(*gpu_, layout_, cache, scene_shaders(ray_generation, alpha), pipeline_constants(record_rays));
-    pipeline.uses = uses_of(ray_generation);
-    save_pipeline_cache(cache, cache_path);
-    return pipeline;
-}
-
-const TracePipeline& PathRenderer::pipeline(Spirv ray_generation) {
-    const bool groups = !bottom_.groups.groups.empty();
-    return stored_pipeline(*gpu_, &PipelineStore::trace, {ray_generation.data(), features_, groups}, [&] {
-        ++pipelines_compiled_;
-        return compile(ray_generation, false);
-    });
-}
-
-const ComputePipeline& PathRenderer::compute_pipeline(Spirv shader) {
-    // Only hit shaders use groups, so the key of a compute pipeline omits them.
-    return stored_pipeline(*gpu_, &PipelineStore::compute, {shader.data(), features_, false}, [&] {
-        ++pipelines_compiled_;
-        const std::filesystem::path cache_path = pipeline_cache_path(*gpu_);
-        const vk::raii::PipelineCache cache = open_pipeline_cache(*gpu_, cache_path);
-        ComputePipeline made{
-            .pipeline = make_compute_pipeline(*gpu_, layout_, cache, shader, pipeline_constants(false)),
-            .uses = uses_of(shader)};
-        save_pipeline_cache(cache, cache_path);
-        return made;
-    });
-}
-
 void PathRenderer::choose_pipelines() {
     traced_.clear();
     computed_.clear();
     candidates_ = CandidatePipelines();
+    PassPipelines pipelines(*gpu_, layout_, pipeline_constants(false));
     const auto shader_of = [&](ResamplingStage stage) { return resampling_shader(stage, constants_); };
     if (resamples()) {
         for (const ResamplingStage stage : {ResamplingStage::first_hits, ResamplingStage::shadows}) {
             if (needs_stage(stage, constants_)) {
-                traced_[stage] = &pipeline(shader_of(stage));
+                pipelines.want(traced_[stage], shader_of(stage));
             }
         }
         for (const ResamplingStage stage : {ResamplingStage::temporal, ResamplingStage::spatial}) {
             if (needs_stage(stage, constants_) && reuse_traces(constants_)) {
-                traced_[stage] = &pipeline(shader_of(stage));
+                pipelines.want(traced_[stage], shader_of(stage));
             } else if (needs_stage(stage, constants_)) {
-                computed_[stage] = &compute_pipeline(shader_of(stage));
+                pipelines.want(computed_[stage], shader_of(stage));
             }
         }
-        candidates_.picked = &compute_pipeline(shader_of(ResamplingStage::candidates));
+        pipelines.want(candidates_.picked, shader_of(ResamplingStage::candidates));
         if (constants_.resampling.bsdf_candidates != 0) {
-            candidates_.bsdf = &pipeline(shader_binary("restir_bsdf_candidates.rgen"));
+            pipelines.want(candidates_.bsdf, shader_binary("restir_bsdf_candidates.rgen"));
             if (shared::reuses_reservoirs(constants_.integrator)) {
-                candidates_.shares = &pipeline(shader_binary("restir_share_picked.rgen"));
+                pipelines.want(candidates_.shares, shader_binary("restir_share_picked.rgen"));
             }
         }
         if (tests_candidates(constants_)) {
-            candidates_.shadows = &pipeline(shader_binary("restir_candidate_shadows.rgen"));
+            pipelines.want(candidates_.shadows, shader_binary("restir_candidate_shadows.rgen"));
         }
     }
-    const Spirv begin = resamples() ? shader_of(ResamplingStage::shade) : shader_binary("wave_begin.comp");
-    wave_pipelines_ = {.begin = &compute_pipeline(begin), .begin_appends = resamples()};
+    wave_pipelines_ = {.begin_appends = resamples()};
+    pipelines.want(wave_pipelines_.begin,
+                   resamples() ? shader_of(ResamplingStage::shade) : shader_binary("wave_begin.comp"));
     if (goes_in_waves()) {
-        const bool samples_lights = (features_ & shared::FEATURE_LIGHT_SAMPLING) != 0;
-        wave_pipelines_.rays = &pipeline(shader_binary("wave_rays.rgen"));
-        wave_pipelines_.shade = &compute_pipeline(shader_binary("wave_shade.comp"));
-        wave_pipelines_.shadows = samples_lights ? &pipeline(shader_binary("wave_shadows.rgen")) : nullptr;
-        wave_pipelines_.film = &compute_pipeline(shader_binary("wave_film.comp"));
+        pipelines.want(wave_pipelines_.rays, shader_binary("wave_rays.rgen"));
+        pipelines.want(wave_pipelines_.shade, shader_binary("wave_shade.comp"));
+        if ((features_ & shared::FEATURE_LIGHT_SAMPLING) != 0) {
+            pipelines.want(wave_pipelines_.shadows, shader_binary("wave_shadows.rgen"));
+        }
+        pipelines.want(wave_pipelines_.film, shader_binary("wave_film.comp"));
     }
+    pipelines_compiled_ += pipelines.complete();
 }
 
 Structures PathRenderer::structures() const {
@@ -301,9 +258,30 @@ std::uint64_t PathRenderer::slice_budget() const {
     return changes_.slice_budget > 0 ? changes_.slice_budget : speed_.budget();
 }
 
+// A picture of few pixels fills the device by several samples of each. Before the speed is known, or when time is
+// short, there are no more paths in flight than a slice may have.
+void PathRenderer::grow_waves(std::uint64_t paths) {
+    const std::uint64_t wanted = std::min(paths, slice_budget());
+    const bool fills = !gpu_->on_cpu || changes_.fill == DeviceFill::anywhere;
+    if (!fills || wanted <= waves_.wanted) {
+        return;
+    }
+    constexpr std::uint64_t growth = 8;  // to allocate takes time, too
+    const std::uint32_t capacity = path_capacity(*gpu_, std::max(wanted, waves_.wanted * growth));
+    if (capacity <= waves_.wanted) {
+        return;
+    }
+    queue_->drain();
+    waves_ = WaveMemory();
+    waves_ = make_wave_memory(*gpu_, capacity, features_);
+    upkeep_->submit([&](Recorder& recorder) { record_values(recorder, bindings_, addresses(*film_), constants_); });
+    count_bytes();
+}
+
 void PathRenderer::render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel) {
     SliceCursor cursor({0, 0, constants_.size.x, constants_.size.y}, first, count);
     while (!cursor.done() && !cancel.load()) {
+        grow_waves(cursor.left());
         submit_slice(*queue_, wave_pipelines_, bindings_, next_slice(cursor, speed_));
     }
 }

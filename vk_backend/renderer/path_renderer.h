@@ -13,7 +13,6 @@
 #include "structures/emitter_structure.h"
 #include "memory/film_memory.h"
 #include "passes/path_waves.h"
-#include "pipelines/pipeline_store.h"
 #include "device/pipeline_cache.h"
 #include "passes/resampling_passes.h"
 #include "memory/scene_memory.h"
@@ -27,10 +26,15 @@ namespace diptych::core {
 /// for a test anywhere.
 enum class Grouping { nowhere, on_gpus, anywhere };
 
+/// Whether a small picture has several samples of each pixel in flight: on GPUs, whose lanes would idle otherwise, or for
+/// a test anywhere.
+enum class DeviceFill { on_gpus, anywhere };
+
 /// Settings that tests change.
 struct PathRendererOptions {
     std::uint64_t slice_budget = 0;  // pixel samples per dispatch, independent of the measured speed
     Grouping grouping = Grouping::on_gpus;
+    DeviceFill fill = DeviceFill::on_gpus;
 };
 
 class PathRenderer final : public Renderer {
@@ -68,9 +72,6 @@ public:
 
 private:
     PipelineConstants pipeline_constants(bool record_rays) const;
-    TracePipeline compile(Spirv ray_generation, bool record_rays) const;
-    const TracePipeline& pipeline(Spirv ray_generation);
-    const ComputePipeline& compute_pipeline(Spirv shader);
     void choose_pipelines();
     Structures structures() const;
     void bind();
@@ -80,6 +81,7 @@ private:
     void replace_film();
     void count_bytes();
     void replace_waves();
+    void grow_waves(std::uint64_t paths);
     void begin_film();
     SceneAddresses addresses(const FilmMemory& film) const;
     void render_paths(std::uint32_t first, std::uint32_t count, const std::atomic<bool>& cancel);
@@ -131,9 +133,6 @@ private:
     RendererCosts costs_;
     std::optional<SpeedEstimate> recording_speed_;  // of record.rgen, once it has been used
 };
-
-/// The shaders of a pipeline with this ray generation shader; with any-hit shaders only if `alpha`.
-PipelineShaders scene_shaders(Spirv ray_generation, bool alpha);
 
 /// Records the commands of one dispatch.
 void record_dispatch(Recorder& recorder, const TracePipeline& pipeline, const PipelineLayout& layout,

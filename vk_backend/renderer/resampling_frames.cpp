@@ -50,7 +50,7 @@ void PathRenderer::render_frames(std::uint32_t first, std::uint32_t count, const
 }
 
 std::uint64_t PathRenderer::pixel_limit(ResamplingStage stage) const {
-    return stage == ResamplingStage::shade ? most_invocations : gpu_->ray_tracing.maxRayDispatchInvocationCount;
+    return stage == ResamplingStage::shade ? most_invocations(*gpu_) : gpu_->ray_tracing.maxRayDispatchInvocationCount;
 }
 
 void PathRenderer::record_stage(Recorder& recorder, ResamplingStage stage, const Slice& slice,

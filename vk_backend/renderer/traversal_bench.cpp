@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "error.h"
+#include "passes/pass_pipelines.h"
 #include "renderer/path_renderer.h"
 #include "device/heap_room.h"
 #include "memory/readback.h"
@@ -84,12 +85,16 @@ struct Tracer {
 TraversalBench PathRenderer::bench_traversal(std::uint32_t samples) {
     require_bound();
     return in_context("measuring traversal", [&] {
-        const TracePipeline recording_rays = compile(shader_binary("wave_rays.rgen"), true);
-        const TracePipeline recording_shadows = compile(shader_binary("wave_shadows.rgen"), true);
+        const auto compile = [&](const char* ray_generation, bool record_rays) {
+            return compile_trace_pipeline(*gpu_, layout_, shader_binary(ray_generation),
+                                          pipeline_constants(record_rays));
+        };
+        const TracePipeline recording_rays = compile("wave_rays.rgen", true);
+        const TracePipeline recording_shadows = compile("wave_shadows.rgen", true);
         WavePipelines recording = wave_pipelines_;
         recording.rays = &recording_rays;
         recording.shadows = recording.shadows != nullptr ? &recording_shadows : nullptr;
-        const TracePipeline bare = compile(shader_binary("bare.rgen"), false);
+        const TracePipeline bare = compile("bare.rgen", false);
         const FilmMemory film = make_film(*gpu_, film_->width, film_->height, features_);
         const auto bind = [&](const RayMemory& memory) {
             SceneAddresses all = addresses(film);
