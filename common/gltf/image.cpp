@@ -11,30 +11,16 @@
 
 #include "error.h"
 #include "image/image_library.h"
+#include "image/picture_format.h"
 
 namespace diptych::core::gltf {
 namespace {
 
 constexpr std::int64_t max_texels = std::int64_t{1} << 28;
 
-// OpenImageIO picks its reader by a file name's ending.
-const char* name_by_content(const Bytes& bytes) {
-    const auto starts = [&](std::string_view magic, std::size_t at = 0) {
-        return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
-    };
-    if (starts("\x89PNG")) {
-        return "image.png";
-    }
-    if (starts("\xff\xd8\xff")) {
-        return "image.jpg";
-    }
-    if (starts("BM")) {
-        return "image.bmp";
-    }
-    if (starts("GIF8")) {
-        return "image.gif";
-    }
-    return starts("RIFF") && starts("WEBP", 8) ? "image.webp" : nullptr;
+/// The formats of textures, and two more that files hold now and then.
+bool is_read(const std::string& format) {
+    return format == "png" || format == "jpeg" || format == "webp" || format == "bmp" || format == "gif";
 }
 
 bool is_ktx2(const Bytes& bytes) {
@@ -56,8 +42,8 @@ void spread_channels(const std::vector<std::uint8_t>& from, std::size_t channels
 }
 
 /// The first one to four channels.
-ByteImage decode(const char* name, const Bytes& bytes, MemoryBudget& budget) {
-    const std::unique_ptr<PictureFile> file = image_library().open(name, bytes);
+ByteImage decode(const std::string& format, const Bytes& bytes, MemoryBudget& budget) {
+    const std::unique_ptr<PictureFile> file = image_library().open(format, bytes);
     const PictureHeader& header = file->headers().front();
     const auto [x, y, width, height] = header.stored;
     const std::size_t channels = header.part.channels.size();
@@ -89,16 +75,16 @@ TextureImage decode_image(const EncodedImage& encoded, MemoryBudget& budget) {
     if (!encoded.problem.empty()) {
         throw Error(encoded.problem);
     }
-    const char* name = name_by_content(encoded.bytes);
+    const std::string format = picture_format(encoded.bytes);
     if (is_ktx2(encoded.bytes)) {
         throw Error("is KTX2, which is not read");
     }
-    if (name == nullptr) {
+    if (!is_read(format)) {
         throw Error("is neither PNG, JPEG nor WebP");
     }
     ByteImage decoded;
     try {
-        decoded = decode(name, encoded.bytes, budget);
+        decoded = decode(format, encoded.bytes, budget);
     } catch (const Error&) {
         throw;
     } catch (const std::runtime_error& error) {

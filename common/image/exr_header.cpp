@@ -1,10 +1,12 @@
 #include "image/exr_header.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <optional>
+#include <string_view>
 
 namespace diptych::core {
 namespace {
@@ -33,6 +35,75 @@ std::optional<std::string> take_name(std::ifstream& file) {
         name += c;
     }
     return std::nullopt;
+}
+
+struct FixedType {
+    std::string_view name;
+    std::uint32_t bytes;
+};
+
+constexpr std::array<FixedType, 24> fixed_types = {
+    {{"box2i", 16},     {"box2f", 16},   {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1},
+     {"double", 8},     {"envmap", 1},   {"float", 4},           {"int", 4},         {"keycode", 28},
+     {"lineOrder", 1},  {"m33f", 36},    {"m33d", 72},           {"m44f", 64},       {"m44d", 128},
+     {"rational", 8},   {"tiledesc", 9}, {"timecode", 8},        {"v2i", 8},         {"v2f", 8},
+     {"v2d", 16},       {"v3i", 12},     {"v3f", 12},            {"v3d", 24}}};
+
+/// Bytes of a list of channels, to the empty name that ends it: each is a name and 16 bytes.
+std::optional<std::uint64_t> channel_list_bytes(std::ifstream& file) {
+    constexpr std::uint64_t after_name = 16;
+    std::uint64_t bytes = 0;
+    while (const std::optional<std::string> name = take_name(file)) {
+        bytes += name->size() + 1;
+        if (name->empty()) {
+            return bytes;
+        }
+        bytes += after_name;
+        file.seekg(after_name, std::ios::cur);
+    }
+    return std::nullopt;
+}
+
+/// Bytes of the strings, each after its length, that begin within the first `limit` bytes.
+std::optional<std::uint64_t> string_list_bytes(std::ifstream& file, std::uint64_t limit) {
+    std::uint64_t bytes = 0;
+    while (bytes < limit) {
+        const std::optional<std::uint32_t> length = take_number(file);
+        if (!length) {
+            return std::nullopt;
+        }
+        bytes += 4 + std::uint64_t{*length};
+        file.seekg(*length, std::ios::cur);
+    }
+    return bytes;
+}
+
+/// A size of two numbers, then four bytes a pixel.
+std::optional<std::uint64_t> preview_bytes(std::ifstream& file) {
+    const std::optional<std::uint32_t> width = take_number(file);
+    const std::optional<std::uint32_t> height = width ? take_number(file) : std::nullopt;
+    constexpr std::uint32_t most = 1U << 20U;
+    if (!height || *width > most || *height > most) {
+        return std::nullopt;
+    }
+    return 8 + std::uint64_t{4} * *width * *height;
+}
+
+/// Whether a value of this type, which begins here, has that many bytes. OpenEXR reads some types by their contents,
+/// and goes on after them, not after the bytes that the attribute claims.
+bool is_size_of(std::string_view type, std::uint32_t bytes, std::ifstream& file) {
+    const auto fixed = std::find_if(fixed_types.begin(), fixed_types.end(),
+                                    [&](const FixedType& known) { return known.name == type; });
+    if (fixed != fixed_types.end()) {
+        return bytes == fixed->bytes;
+    }
+    if (type == "chlist") {
+        return channel_list_bytes(file) == bytes;
+    }
+    if (type == "stringvector") {
+        return string_list_bytes(file, bytes) == bytes;
+    }
+    return type != "preview" || preview_bytes(file) == bytes;
 }
 
 }  // namespace
@@ -64,7 +135,12 @@ std::string exr_header_problem(const std::filesystem::path& path) {
         if (*bytes > size - at) {
             return "its attribute '" + *name + "' claims " + std::to_string(*bytes) + " bytes, more than the file has";
         }
-        file.seekg(*bytes, std::ios::cur);
+        if (!is_size_of(*type, *bytes, file)) {
+            return "its attribute '" + *name + "' of type '" + *type + "' does not have the " +
+                   std::to_string(*bytes) + " bytes that it claims";
+        }
+        file.clear();
+        file.seekg(static_cast<std::streamoff>(at + *bytes));
     }
     return "";
 }

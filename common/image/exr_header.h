@@ -7,8 +7,8 @@
 
 namespace diptych::core {
 
-/// Why the headers are not handed to OpenEXR: an attribute claims more bytes than the file has. Empty where there is no
-/// such reason, and for a file that is no EXR.
+/// Why the headers are not handed to OpenEXR: an attribute claims more bytes than the file has, or not as many as its
+/// value. Empty where there is no such reason, and for a file that is no EXR.
 std::string exr_header_problem(const std::filesystem::path& path);
 
 }  // namespace diptych::core

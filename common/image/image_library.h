@@ -58,9 +58,10 @@ public:
     using Bytes = std::vector<unsigned char>;
 
     virtual ~ImageLibrary() = default;
-    virtual std::unique_ptr<PictureFile> open(const std::filesystem::path& path) const = 0;
-    /// A file in memory; `name` ends in the extension of its format. The bytes must outlive the PictureFile.
-    virtual std::unique_ptr<PictureFile> open(const std::string& name, std::span<const std::uint8_t> bytes) const = 0;
+    /// Opens by the reader of one format: OpenImageIO's name for it, or an extension of file names.
+    virtual std::unique_ptr<PictureFile> open(const std::string& format, const std::filesystem::path& path) const = 0;
+    /// The same for a file in memory. The bytes must outlive the PictureFile.
+    virtual std::unique_ptr<PictureFile> open(const std::string& format, std::span<const std::uint8_t> bytes) const = 0;
     /// Whether a format can be read, by OpenImageIO's name for it.
     virtual bool reads(const std::string& format) const = 0;
 

@@ -11,6 +11,7 @@
 #include "image/image_library.h"
 #include "input_file.h"
 #include "one_line.h"
+#include "image/picture_format.h"
 #include "image/picture_layers.h"
 #include "image/radiance_file.h"
 #include "image/size_claim.h"
@@ -120,7 +121,7 @@ std::unique_ptr<PictureFile> open_by_library(const fs::path& path) {
     if (const std::string problem = exr_header_problem(path); !problem.empty()) {
         fail(problem);
     }
-    return image_library().open(path);
+    return image_library().open(picture_format(path), path);
 }
 
 RawImage read_by_library(const fs::path& path, const std::string& layer, const std::vector<std::string>& beside,

@@ -130,6 +130,66 @@ TEST_CASE("an attribute of an EXR claims no more bytes than the file has", "[ima
     }
 }
 
+TEST_CASE("an attribute of an EXR claims as many bytes as its value has", "[image]") {
+    const TemporaryFolder folder;
+    const std::string good = exr_bytes({constant_part(whole, {{"Y", 0.5F}})});
+    const auto refusal = [&](const std::string& attribute, int more) {
+        std::string bytes = good;
+        const std::size_t claim = bytes.find(attribute) + attribute.size();
+        REQUIRE(claim >= attribute.size());
+        bytes[claim] = static_cast<char>(bytes[claim] + more);
+        write_file_atomically(folder / "a.exr", bytes);
+        return read(folder / "a.exr").refusal;
+    };
+    // OpenEXR reads these by their contents: what follows would be taken for the next attribute.
+    for (const auto& [name, type] : {std::pair("channels", "chlist"), {"dataWindow", "box2i"}, {"lineOrder", "lineOrder"},
+                                     {"pixelAspectRatio", "float"}, {"screenWindowCenter", "v2f"}}) {
+        const std::string attribute = std::string(name) + '\0' + type + '\0';
+        CAPTURE(name);
+        CHECK(refusal(attribute, 0).empty());
+        CHECK(contains(refusal(attribute, 4), std::string("'") + name + "' of type '" + type + "' does not have"));
+    }
+}
+
+TEST_CASE("a list of strings or a preview in an EXR has the size that it claims", "[image]") {
+    const TemporaryFolder folder;
+    const std::string good = exr_bytes({constant_part(whole, {{"Y", 0.5F}})});
+    const auto problem = [&](const std::string& type, const std::string& value) {
+        std::string attribute = std::string("more") + '\0' + type + '\0';
+        attribute += {static_cast<char>(value.size()), 0, 0, 0};
+        std::string bytes = good;
+        bytes.insert(8, attribute + value);  // behind the magic number and the version
+        write_file_atomically(folder / "a.exr", bytes);
+        return exr_header_problem(folder / "a.exr");
+    };
+    const std::string pixel = std::string("\1\0\0\0\1\0\0\0abcd", 12);
+    CHECK(problem("preview", pixel).empty());
+    CHECK(contains(problem("preview", std::string("\0\0\1\0\0\0\1\0abcd", 12)), "'more' of type 'preview'"));
+    CHECK(problem("stringvector", std::string("\2\0\0\0ab\0\0\0\0", 10)).empty());
+    CHECK(contains(problem("stringvector", std::string("\2\0\0\x60" "ab", 6)), "'more' of type 'stringvector'"));
+    CHECK(problem("of another program", "abc").empty());
+}
+
+TEST_CASE("a picture is read by the reader of its format alone", "[image]") {
+    const TemporaryFolder folder;
+    const auto refusal = [&](const char* name, const std::string& bytes) -> std::string {
+        write_file_atomically(folder / name, bytes);
+        try {
+            read_image(folder / name);
+            return "";
+        } catch (const Error& error) {
+            return error.what();
+        }
+    };
+    std::string bytes = exr_bytes({constant_part(whole, {{"Y", 0.5F}})});
+    CHECK(refusal("a.png", bytes).empty());  // its bytes name the format, not its extension
+    bytes[4] = 99;                           // a version that does not exist
+    for (const char* name : {"a.exr", "a.dcm", "a.mp4"}) {
+        CHECK(contains(refusal(name, bytes), "version"));
+    }
+    CHECK(contains(refusal("a.unknown", "no picture"), "known picture format"));
+}
+
 TEST_CASE("names in an EXR do not break the line that refuses it", "[image]") {
     const TemporaryFolder folder;
     const Read refused = read(folder, {constant_part(whole, {{"U\n\x1b[2J", 1.0F}})});

@@ -12,9 +12,11 @@ namespace {
 
 class OpenImageIO final : public ImageLibrary {
 public:
-    std::unique_ptr<PictureFile> open(const std::filesystem::path& path) const override { return open_picture(path); }
-    std::unique_ptr<PictureFile> open(const std::string& name, std::span<const std::uint8_t> bytes) const override {
-        return open_picture(name, bytes);
+    std::unique_ptr<PictureFile> open(const std::string& format, const std::filesystem::path& path) const override {
+        return open_picture(format, path);
+    }
+    std::unique_ptr<PictureFile> open(const std::string& format, std::span<const std::uint8_t> bytes) const override {
+        return open_picture(format, bytes);
     }
     bool reads(const std::string& format) const override {
         const std::string formats = "," + std::string(OIIO::get_string_attribute("input_format_list")) + ",";

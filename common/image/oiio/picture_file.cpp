@@ -85,18 +85,29 @@ OIIO::ImageSpec unassociated_alpha() {
     return config;
 }
 
-}  // namespace
-
-std::unique_ptr<PictureFile> open_picture(const std::filesystem::path& path) {
-    const OIIO::ImageSpec config = unassociated_alpha();
-    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
+/// Opens by one reader. ImageInput::open would hand a file that its reader refuses to all others, and so a damaged
+/// picture to decoders of video and of medical images.
+std::unique_ptr<OIIO::ImageInput> open_by(const std::string& format, const std::string& name,
+                                          const OIIO::ImageSpec& config) {
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
     if (!input) {
-        fail_by_library(OIIO::geterror());
+        OIIO::geterror();  // clears it: it takes the extension for the name of a file
+        fail_by_library("neither its contents nor its extension are those of a known picture format");
     }
-    return std::make_unique<OpenPicture>(nullptr, std::move(input));
+    OIIO::ImageSpec spec;
+    if (!input->open(name, spec, config)) {
+        fail_by_library(input->geterror());
+    }
+    return input;
 }
 
-std::unique_ptr<PictureFile> open_picture(const std::string& name, std::span<const std::uint8_t> bytes) {
+}  // namespace
+
+std::unique_ptr<PictureFile> open_picture(const std::string& format, const std::filesystem::path& path) {
+    return std::make_unique<OpenPicture>(nullptr, open_by(format, path.string(), unassociated_alpha()));
+}
+
+std::unique_ptr<PictureFile> open_picture(const std::string& format, std::span<const std::uint8_t> bytes) {
     auto* data = const_cast<std::uint8_t*>(bytes.data());  // which the reader only reads
     auto memory = std::make_unique<OIIO::Filesystem::IOMemReader>(data, bytes.size());
     OIIO::Filesystem::IOProxy* proxy = memory.get();
@@ -108,10 +119,7 @@ std::unique_ptr<PictureFile> open_picture(const std::string& name, std::span<con
     std::unique_ptr<OIIO::ImageInput> input;
     {
         const std::lock_guard lock(one_at_a_time);
-        input = OIIO::ImageInput::open(name, &config);
-    }
-    if (!input) {
-        fail_by_library(OIIO::geterror());
+        input = open_by(format, "image", config);
     }
     return std::make_unique<OpenPicture>(std::move(memory), std::move(input));
 }

@@ -5,7 +5,7 @@
 
 namespace diptych::core {
 
-std::unique_ptr<PictureFile> open_picture(const std::filesystem::path& path);
-std::unique_ptr<PictureFile> open_picture(const std::string& name, std::span<const std::uint8_t> bytes);
+std::unique_ptr<PictureFile> open_picture(const std::string& format, const std::filesystem::path& path);
+std::unique_ptr<PictureFile> open_picture(const std::string& format, std::span<const std::uint8_t> bytes);
 
 }  // namespace diptych::core

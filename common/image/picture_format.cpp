@@ -1,0 +1,49 @@
+#include "image/picture_format.h"
+
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+
+namespace diptych::core {
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Magic {
+    std::string_view bytes;
+    std::string_view format;
+};
+
+constexpr std::array<Magic, 7> magics = {{{"\x89PNG"sv, "png"},
+                                          {"\xff\xd8\xff"sv, "jpeg"},
+                                          {"BM"sv, "bmp"},
+                                          {"GIF8"sv, "gif"},
+                                          {"II*\0"sv, "tiff"},
+                                          {"MM\0*"sv, "tiff"},
+                                          {"\x76\x2f\x31\x01"sv, "openexr"}}};
+
+bool has(std::span<const std::uint8_t> bytes, std::string_view magic, std::size_t at) {
+    return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
+}
+
+}  // namespace
+
+std::string picture_format(std::span<const std::uint8_t> beginning) {
+    for (const Magic& magic : magics) {
+        if (has(beginning, magic.bytes, 0)) {
+            return std::string(magic.format);
+        }
+    }
+    return has(beginning, "RIFF", 0) && has(beginning, "WEBP", 8) ? "webp" : "";
+}
+
+std::string picture_format(const std::filesystem::path& path) {
+    std::array<std::uint8_t, 16> bytes{};
+    std::ifstream file(path, std::ios::binary);
+    file.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
+    const std::string format = picture_format(std::span(bytes).first(static_cast<std::size_t>(file.gcount())));
+    return format.empty() ? path.extension().string() : format;
+}
+
+}  // namespace diptych::core
