@@ -3,7 +3,8 @@
 file(GLOB library_sources CONFIGURE_DEPENDS app/library/*.cpp)
 add_library(diptych_library SHARED ${library_sources})
 add_library(Diptych::diptych ALIAS diptych_library)
-target_link_libraries(diptych_library PRIVATE diptych_options diptych_backends diptych_measure diptych_scene)
+target_link_libraries(diptych_library PRIVATE diptych_options diptych_backends diptych_build_info diptych_measure
+                      diptych_scene)
 configure_file(include/diptych/version.h.in include/diptych/version.h @ONLY)
 target_include_directories(
   diptych_library PRIVATE app PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>

@@ -26,8 +26,11 @@ constexpr OptionName names[] = {
     {"output", "-o"},
     {"reuse_mis", "--reuse-mis"},
     {"reuse_visibility", "--reuse-visibility"},
+    {"resume", "--resume"},
     {"sampler", "--sampler"},
+    {"samples", "--samples"},
     {"size", "--size"},
+    {"sums", "--sums"},
     {"up", "--up"},
     {"view_height", "--view-height"},
 };

@@ -30,9 +30,7 @@ std::string scaled(double value, double thousand, const std::vector<const char*>
 }  // namespace
 
 std::string program_version() {
-    const std::string mutant = build_info::mutant;
-    return fmt::format("diptych {} (commit {}{}{})", build_info::version, build_info::commit,
-                       build_info::modified ? ", modified" : "", mutant.empty() ? "" : ", mutant " + mutant);
+    return build_info::program();
 }
 
 std::string one_line(std::string text) {

@@ -9,6 +9,8 @@
 
 #include "diptych/diptych.h"
 #include "render/film.h"
+#include "render/film_parts.h"
+#include "render/metadata.h"
 #include "render/request.h"
 #include "render/session.h"
 #include "scene/scene.h"
@@ -39,22 +41,30 @@ struct SceneData {
     core::Scene& own_content();
 };
 
-/// Samples that a film has of one seed.
-struct SampleRange {
+/// What a film of this process shows.
+struct FilmOrigin {
+    std::uint64_t revision = 0;  // of the scene
+    core::Moment moment;
+};
+
+/// Samples of one seed that a film has.
+struct FilmSamples {
     std::uint32_t seed = 0;
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
+    core::FilmPart part;
 };
 
 struct FilmData {
     FilmInfo info;
-    core::Film film;
-    core::RenderRequest request;  // for the metadata
-    std::vector<SampleRange> ranges;
-    std::uint64_t revision = 0;  // of the scene
-    core::Moment moment;
+    core::Film film;          // without pixels where a file held no sums
+    core::Metadata metadata;  // of the picture as it was made; counts are those of `info`
+    std::vector<FilmSamples> samples;
+    std::optional<FilmOrigin> origin;  // none where it was loaded
     core::LayeredImage developed;
+
+    std::string name() const { return info.file.empty() ? "film" : info.file; }
 };
+
+core::RenderSettings to_core(const Settings& settings);
 
 struct SessionData {
     std::shared_ptr<SceneData> scene;
@@ -66,17 +76,24 @@ struct SessionData {
     core::Moment moment;
     std::unique_ptr<core::Session> session;
     std::set<std::string> warned;
-    std::vector<SampleRange> ranges;  // of the picture, in rising order
-    double seconds = 0;               // of rendering it
+    core::SampleRanges samples;  // of the picture, those of the base among them
+    double seconds = 0;          // of rendering it
+    std::shared_ptr<const FilmData> base;  // that it goes on from
+    std::string fingerprint;               // of what it shows; empty until it is asked for
 
     core::RenderSettings core_settings() const;
     core::RenderRequest request() const;
+    bool chained() const { return choice.backend != Backend::oracle && core::chains_frames(to_core(settings)); }
+    core::RenderOutcome outcome();
     void open();
     core::Session& running();  // opened again where opening it failed before
     void begin_picture();
     void follow_edits();
     void go_to(const core::Moment& next, const Settings& wanted);
-    std::uint32_t done() const { return ranges.empty() ? 0 : ranges.back().first + ranges.back().count; }
+    /// The first sample after those that are there.
+    std::uint32_t done() const {
+        return samples.empty() ? 0 : static_cast<std::uint32_t>(samples.ranges().back().end);
+    }
 };
 
 struct Impl {
@@ -84,6 +101,7 @@ struct Impl {
     static std::shared_ptr<SceneData> shared(const Scene& scene) { return scene.data_; }
     static SessionData& data(Session& session) { return *session.data_; }
     static const FilmData& data(const Film& film) { return *film.data_; }
+    static std::shared_ptr<const FilmData> shared(const Film& film) { return film.data_; }
     static Scene make_scene(std::shared_ptr<core::Scene> content);
     static Film make_film(std::shared_ptr<const FilmData> data) { return Film(std::move(data)); }
 };
@@ -117,6 +135,9 @@ private:
     std::stop_callback<std::function<void()>> callback_;
 };
 
+/// Throws Error where a film cannot be added to: it has no sums, or sums of no whole samples.
+void require_sums(const FilmData& data);
+
 // convert.cpp
 Tables tables_of(const core::Scene& scene);
 /// Writes what differs between the tables into the scene; `before` is what the scene says.
@@ -128,7 +149,7 @@ Camera from_core(const core::Camera& camera);
 Environment from_core(const core::Environment& environment);
 glm::dmat4 to_core(const Matrix& matrix);
 Matrix from_core(const glm::dmat4& matrix);
-core::RenderSettings to_core(const Settings& settings);
+Settings from_core(const core::RenderSettings& settings);
 std::string core_name(Backend backend);
 
 // validate.cpp: throw Error naming object, field and value.

@@ -7,8 +7,11 @@
 
 #include "backends/backends.h"
 #include "library/impl.h"
+#include "library/version.h"
+#include "pack/fingerprint.h"
 #include "pose/pose.h"
 #include "render/film_tiles.h"
+#include "render/merge_films.h"
 #include "render/progressive.h"
 
 DIPTYCH_BEGIN
@@ -28,6 +31,7 @@ core::RenderRequest SessionData::request() const {
     out.device = choice.device;
     out.threads = choice.threads;
     out.validation = choice.validation;
+    out.frames = moment.seconds ? 1 : 0;  // so that the metadata name the moment
     out.start = moment.seconds.value_or(0);
     out.settings = to_core(settings);
     return out;
@@ -41,8 +45,10 @@ core::Session& SessionData::running() {
 }
 
 void SessionData::begin_picture() {
-    ranges.clear();
+    samples = {};
     seconds = 0;
+    base.reset();
+    fingerprint.clear();
 }
 
 void SessionData::open() {
@@ -139,6 +145,7 @@ RenderResult Session::render_range(std::uint32_t first, std::uint32_t count, con
         std::atomic<bool> stopped{false};
         std::uint32_t rendered = 0;
         core::ProgressiveHooks hooks;
+        hooks.base = d.base ? &d.base->film : nullptr;
         hooks.render = [&](std::uint32_t from, std::uint32_t samples, const std::atomic<bool>&) {
             if (options.stop.stop_requested()) {
                 stopped = true;
@@ -155,7 +162,7 @@ RenderResult Session::render_range(std::uint32_t first, std::uint32_t count, con
         RenderResult result;
         const auto keep = [&] {
             if (rendered > 0) {
-                d.ranges.push_back({d.settings.seed, first, rendered});
+                d.samples.add({first, std::uint64_t{first} + rendered});
             }
             d.seconds += result.seconds;
         };
@@ -177,30 +184,76 @@ RenderResult Session::render(std::uint32_t count, const RenderOptions& options) 
     return render_range(data_->done(), count, options);
 }
 
+/// What the metadata tell of a picture, but for its samples.
+core::RenderOutcome SessionData::outcome() {
+    if (fingerprint.empty()) {
+        fingerprint = core::scene_fingerprint(running().packed());
+    }
+    core::RenderOutcome out;
+    out.maker.program = program_version();
+    out.device = running().renderer().device();
+    out.fingerprint = fingerprint;
+    return out;
+}
+
 Film Session::film() const {
     return guarded([&] {
-        const SessionData& d = *data_;
+        SessionData& d = *data_;
         auto film = std::make_shared<FilmData>();
-        film->film = data_->running().film();
+        film->film = d.running().film();
+        if (d.base) {
+            core::merge_films(d.base->film, film->film);
+        }
         const core::FilmTotals totals = core::film_totals(film->film);
-        film->request = d.request();
-        film->ranges = d.ranges;
-        film->revision = d.revision;
-        film->moment = d.moment;
         FilmInfo& info = film->info;
         info.scene = d.content->name;
         info.backend = d.choice.backend;
         info.device = device();
         info.settings = d.settings;
-        for (const SampleRange& range : d.ranges) {
-            info.spp += range.count;
-        }
+        info.spp = static_cast<std::uint32_t>(d.samples.count());
         info.samples = totals.samples;
         info.nonfinite = totals.nonfinite;
         info.rays = totals.rays;
         info.seconds = d.seconds;
+        core::RenderOutcome outcome = d.outcome();
+        outcome.spp = info.spp;
+        outcome.samples = d.chained() ? core::SampleRanges() : d.samples;
+        outcome.seconds = info.seconds;
+        outcome.rays = info.rays;
+        outcome.nonfinite = info.nonfinite;
+        film->metadata = core::render_metadata(d.request(), outcome);
+        film->samples = {{d.settings.seed, {"film", d.samples}}};
+        film->origin = FilmOrigin{d.revision, d.moment};
         film->developed = core::develop(film->film);
         return Impl::make_film(std::move(film));
+    });
+}
+
+void Session::resume(const Film& film) {
+    guarded([&] {
+        SessionData& d = *data_;
+        const std::shared_ptr<const FilmData> base = Impl::shared(film);
+        d.follow_edits();
+        require_sums(*base);
+        if (!d.samples.empty()) {
+            throw Error("session: the picture has samples already; restart it before it goes on from a film");
+        }
+        if (d.chained()) {
+            throw SettingError("session: the samples of restir go on from one another, and cannot go on from a film");
+        }
+        core::require_same_picture(base->name(), base->metadata, "the session's picture",
+                                   core::render_metadata(d.request(), d.outcome()));
+        core::SampleRanges samples;
+        for (const FilmSamples& each : base->samples) {
+            if (each.seed != d.settings.seed) {
+                throw Error(fmt::format("{}: has samples of seed {} too, and the session's are of seed {}", base->name(),
+                                        each.seed, d.settings.seed));
+            }
+            samples.add(each.part.samples);
+        }
+        d.samples = samples;
+        d.seconds = base->info.seconds;
+        d.base = base;
     });
 }
 

@@ -48,6 +48,34 @@ core::RenderSettings to_core(const Settings& s) {
     return out;
 }
 
+Settings from_core(const core::RenderSettings& s) {
+    Settings out;
+    out.size = {s.width, s.height};
+    out.integrator = static_cast<Integrator>(s.integrator);
+    out.brdf = static_cast<BrdfModel>(s.brdf);
+    out.normal_maps = static_cast<NormalMaps>(static_cast<int>(s.normal_maps) - 1);
+    out.sampler = static_cast<SamplerKind>(s.sampler);
+    out.mis = static_cast<MisHeuristic>(s.mis);
+    out.max_depth = s.max_depth;
+    out.seed = s.seed;
+    out.sample_count = s.sample_count;
+    out.camera = s.camera;
+    out.standard_error = s.standard_error;
+    out.first_hit = s.first_hit_layers;
+    const core::ResamplingSettings& r = s.resampling;
+    out.resampling = {r.light_candidates,
+                      r.near_share,
+                      r.bsdf_candidate,
+                      r.temporal,
+                      r.spatial_passes,
+                      r.neighbors,
+                      r.radius,
+                      r.confidence_cap,
+                      static_cast<ResamplingMis>(r.mis),
+                      static_cast<ResamplingVisibility>(r.visibility)};
+    return out;
+}
+
 std::string core_name(Backend backend) {
     return core::app::backend_names().at(static_cast<std::size_t>(backend));
 }

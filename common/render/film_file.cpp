@@ -14,8 +14,6 @@ namespace diptych::core {
 
 namespace {
 
-using Metadata = std::map<std::string, std::string>;
-
 std::string entry(const Metadata& metadata, const std::string& name) {
     const auto found = metadata.find(name);
     return found == metadata.end() ? "" : found->second;

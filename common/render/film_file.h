@@ -11,10 +11,12 @@
 
 namespace diptych::core {
 
+using Metadata = std::map<std::string, std::string>;
+
 struct FilmFile {
     Film film;
-    std::map<std::string, std::string> metadata;  // as render_metadata gave it
-    SampleRanges samples;                         // that every pixel has
+    Metadata metadata;     // as render_metadata gave it
+    SampleRanges samples;  // that every pixel has
 };
 
 /// Reads what save_film has written with its sums. None where the file is a picture without them. Throws Error naming
@@ -24,6 +26,6 @@ std::optional<FilmFile> read_film(const std::filesystem::path& path);
 /// The first setting that differs between two pictures' metadata so that their samples are not of one picture, as
 /// "max_depth is 8 and 4"; empty where there is none. The machine, the limits and the display are no such settings, and
 /// neither is the panel: both take the same samples.
-std::string picture_difference(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b);
+std::string picture_difference(const Metadata& a, const Metadata& b);
 
 }  // namespace diptych::core

@@ -36,4 +36,7 @@ struct RenderOutcome {
 /// Values by name. "command" is the maker's command for the samples that were reached; left out without a command.
 std::map<std::string, std::string> render_metadata(const RenderRequest& request, const RenderOutcome& outcome);
 
+/// The settings that such values tell; what they leave out has its default. Throws Error where one is no setting's.
+RenderSettings settings_in(const std::map<std::string, std::string>& metadata);
+
 }  // namespace diptych::core

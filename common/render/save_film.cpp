@@ -40,18 +40,22 @@ LayeredImage save_film(const Film& film, const RenderRequest& request, const Ren
     return layers;
 }
 
+RenderRequest shown_by(const Metadata& metadata, bool sums) {
+    RenderRequest shown;
+    shown.sums = sums;
+    if (const auto found = metadata.find("tonemap"); found != metadata.end()) {
+        shown.tonemap = found->second;
+    }
+    if (const auto found = metadata.find("exposure"); found != metadata.end()) {
+        shown.exposure = std::strtod(found->second.c_str(), nullptr);
+    }
+    return shown;
+}
+
 void save_film_file(const FilmFile& file, const std::string& path, bool sums) {
     LayeredImage layers = develop(file.film);
     layers.metadata = file.metadata;
-    RenderRequest shown;
-    shown.sums = sums;
-    if (const auto found = file.metadata.find("tonemap"); found != file.metadata.end()) {
-        shown.tonemap = found->second;
-    }
-    if (const auto found = file.metadata.find("exposure"); found != file.metadata.end()) {
-        shown.exposure = std::strtod(found->second.c_str(), nullptr);
-    }
-    save_layers(layers, file.film, shown, path);
+    save_layers(layers, file.film, shown_by(file.metadata, sums), path);
 }
 
 }  // namespace diptych::core

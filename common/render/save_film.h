@@ -21,6 +21,9 @@ void save_layers(const LayeredImage& layers, const Film& film, const RenderReque
 /// Both, as request.output; returns what it wrote. Throws Error.
 LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome);
 
+/// How a picture's metadata say that it is shown, as a request for save_layers.
+RenderRequest shown_by(const Metadata& metadata, bool sums);
+
 /// Writes a film as its metadata say it is shown, with or without its sums. Throws Error.
 void save_film_file(const FilmFile& file, const std::string& path, bool sums);
 

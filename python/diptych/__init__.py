@@ -44,7 +44,7 @@ from ._diptych import (
     look_at,
 )
 from .measure import Comparison, Replay, Verdict, compare, replay, verify
-from .rendering import Session, render
+from .rendering import Session, merge, render
 
 __all__ = [
     "Camera",
@@ -78,6 +78,7 @@ __all__ = [
     "load",
     "load_environment",
     "look_at",
+    "merge",
     "render",
     "replay",
     "verify",

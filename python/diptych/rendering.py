@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Literal, Mapping, Optional, Tuple, TypedDict, Union
+import os
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Literal, Mapping, Optional, Tuple, TypedDict, Union
 
 from . import _diptych
 from ._diptych import Film, RenderResult, Scene, Settings
@@ -149,3 +150,24 @@ def render(
     with Session(scene, backend=backend, device=device, threads=threads, **settings) as session:
         session.render(spp, progress=progress, seconds=seconds, relmse=relmse)
         return session.film()
+
+
+def merge(films: Iterable[Union[Film, str, os.PathLike[str]]], *, partial: bool = False) -> Film:
+    """The films, or films in files, as one: the same bits as one render of all their samples, in whatever order.
+
+    Raises Error, which names the films, where they are not of one picture, have samples in common, or have no sums;
+    and, unless partial, where samples are missing before the last one.
+
+    >>> import diptych as dp
+    >>> scene = dp.Scene()
+    >>> scene.environment.scale = (1, 1, 1)
+    >>> with dp.Session(scene, size=(4, 3)) as session:
+    ...     parts = []
+    ...     for first in (0, 8):
+    ...         session.restart()
+    ...         done = session.render(8, first=first)
+    ...         parts.append(session.film())
+    >>> dp.merge(parts).spp
+    16
+    """
+    return _diptych.merge([film if isinstance(film, Film) else Film.load(film) for film in films], partial)

@@ -8,6 +8,21 @@ namespace diptych::python {
 
 namespace {
 
+constexpr const char* load_doc =
+    "A film from a file. One that was saved with sums=True, or by the program with its sums, comes back to the bit: it\n"
+    "merges, and a session goes on from it. Any other picture (.exr, .hdr, .png and more) is its radiance, with the\n"
+    "standard error and the layers that an .exr has. memory_limit: bytes that the file may ask for; 0 is a quarter of\n"
+    "the memory.\n\n"
+    ">>> import diptych as dp, tempfile\n"
+    ">>> scene = dp.Scene()\n"
+    ">>> scene.environment.scale = (0.5, 0.5, 0.5)\n"
+    ">>> film = dp.render(scene, spp=4, size=(3, 2))\n"
+    ">>> with tempfile.TemporaryDirectory() as folder:\n"
+    "...     film.save(folder + \"/film.exr\", sums=True)\n"
+    "...     again = dp.Film.load(folder + \"/film.exr\")\n"
+    ">>> again.spp, bool((again.sums == film.sums).all())\n"
+    "(4, True)\n";
+
 constexpr const char* film_doc = "What a session has rendered: a value. Arrays have row 0 on top.\n\n"
                                  ">>> import diptych as dp\n"
                                  ">>> scene = dp.Scene()\n"
@@ -21,6 +36,9 @@ py::array layer(const Film& film, const std::string& name) {
     auto* owned = new Film(film);
     const py::capsule owner(owned, [](void* memory) { delete static_cast<Film*>(memory); });
     const std::span<const float> values = owned->layer(name);
+    if (values.empty() && !film.has_sums()) {
+        throw Error("the film has no layer " + name + ": " + film.info().file + " holds none");
+    }
     if (values.empty()) {
         const char* setting = name == "standard_error" ? "standard_error" : "first_hit";
         throw Error("the film has no layer " + name + ": it was rendered with " + setting + "=False");
@@ -65,8 +83,11 @@ std::string short_number(double value) {
 
 std::string shown(const Film& film) {
     const FilmInfo& info = film.info();
-    std::string text = "<Film " + std::to_string(film.width()) + "x" + std::to_string(film.height()) + ", " +
-                       std::to_string(info.spp) + " spp, " + name_of(info.backend);
+    std::string text = "<Film " + std::to_string(film.width()) + "x" + std::to_string(film.height()) + ", ";
+    if (info.spp == 0 && !info.file.empty()) {  // a picture that does not say how it was made
+        return text + info.file + ">";
+    }
+    text += std::to_string(info.spp) + " spp, " + name_of(info.backend);
     if (info.backend != Backend::oracle) {
         text += ":" + name_of(info.settings.integrator);
     }
@@ -86,6 +107,15 @@ py::bytes png(const Film& film) {
 void bind_film(py::module_& module) {
     const auto info = [](auto member) { return [member](const Film& film) { return film.info().*member; }; };
     py::class_<Film>(module, "Film", film_doc)
+        .def_static(
+            "load",
+            [](const py::object& path, std::uint64_t memory_limit) {
+                const std::string name = path_of(path);
+                const py::gil_scoped_release others_run;
+                return Film::load(name, memory_limit);
+            },
+            py::arg("path"), py::arg("memory_limit") = 0, load_doc)
+        .def_property_readonly("file", info(&FilmInfo::file), "That it was loaded from; empty for one that was rendered.")
         .def_property_readonly("width", &Film::width, "Pixels.")
         .def_property_readonly("height", &Film::height, "Pixels.")
         .def_property_readonly("scene", info(&FilmInfo::scene), "The scene's name.")
@@ -110,12 +140,14 @@ void bind_film(py::module_& module) {
              "hit.\n"
              "Also \"radiance\" and \"standard_error\". Read-only views.")
         .def_property_readonly("layers", &layers, "The names of the layers that the film has.")
+        .def_property_readonly("has_sums", &Film::has_sums,
+                               "Whether the film has the sums of its samples, by which films merge.")
         .def_property_readonly(
             "sums",
             [](const Film& film) {
                 return array_of(film.sums(), {film.height(), film.width(), 3});
             },
-            "Float64 (h, w, 3): the sums that radiance is the mean of. A copy.")
+            "Float64 (h, w, 3): the sums that radiance is the mean of. A copy. Raises Error where there are none.")
         .def_property_readonly(
             "sample_counts",
             [](const Film& film) {
@@ -126,23 +158,24 @@ void bind_film(py::module_& module) {
                                "Mean of variance / (radiance² + 0.01), by the standard errors; NaN without them.")
         .def(
             "merge", &Film::merge, py::arg("other"),
-            "Adds the other film's samples, as if this film had taken them too. Raises Error, and changes nothing, "
-            "where\n"
-            "the films differ in scene, size or settings other than the seed, or have samples in common. Arrays taken\n"
-            "before keep their values.")
+            "Adds the other film's samples, exactly, as if this film had taken them too. Raises Error, and changes "
+            "nothing,\n"
+            "where the films differ in scene, size or settings other than the seed, have samples in common or have no\n"
+            "sums. Arrays taken before keep their values. diptych.merge also looks for samples that are missing.")
         .def(
             "copy", [](const Film& film) { return Film(film); },
             "A film that merges on its own; memory is shared till then.")
         .def("__copy__", [](const Film& film) { return Film(film); })
         .def(
             "save",
-            [](const Film& film, const py::object& path) {
+            [](const Film& film, const py::object& path, bool sums) {
                 const std::string name = path_of(path);
                 const py::gil_scoped_release others_run;
-                film.save(name);
+                film.save(name, {sums});
             },
-            py::arg("path"),
-            "Writes .exr (all layers, float32), .hdr or .png (tone-mapped). The file appears whole or not at all.")
+            py::arg("path"), py::kw_only(), py::arg("sums") = false,
+            "Writes .exr (all layers, float32), .hdr or .png (tone-mapped). The file appears whole or not at all.\n"
+            "sums: keep the exact sums in the .exr, by which Film.load gets the film back to the bit.")
         .def(
             "tone_mapped",
             [](const Film& film, double exposure) {
@@ -151,6 +184,10 @@ void bind_film(py::module_& module) {
             py::arg("exposure") = 0.0, "Float32 (h, w, 3), display values from 0 to 1; exposure in EV, powers of two.")
         .def("__repr__", &shown)
         .def("_repr_png_", &png);
+    module.def("merge", [](const std::vector<Film>& films, bool partial) {
+        const py::gil_scoped_release others_run;
+        return merge(films, {partial});
+    });
 }
 
 }  // namespace diptych::python

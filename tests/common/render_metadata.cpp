@@ -42,6 +42,27 @@ TEST_CASE("metadata tell how the render went", "[render]") {
     CHECK(metadata.at("command") == "render out.exr 77");
 }
 
+TEST_CASE("the settings that metadata tell are those they were made of", "[render]") {
+    RenderRequest request = request_of_everything();
+    for (const Integrator integrator : {Integrator::direct, Integrator::restir}) {
+        request.settings.integrator = integrator;
+        request.settings.resampling = {3, 0.1F, false, false, 2, 5, 7.25F, 1.0F / 3, ResamplingMis::balance,
+                                       ResamplingVisibility::biased_initial};
+        request.settings.normal_maps = NormalMaps::microfacet;
+        request.settings.atlas_tile = 16;
+        request.settings.moves = false;  // the scene's, not the picture's
+        RenderSettings told = settings_in(render_metadata(request, {}));
+        if (integrator == Integrator::direct) {  // which heeds neither
+            told.resampling = request.settings.resampling;
+            told.atlas_tile = request.settings.atlas_tile;
+        }
+        CHECK(told == request.settings);
+    }
+    CHECK(settings_in({}) == RenderSettings());
+    CHECK_THROWS_WITH(settings_in({{"seed", "1e9"}}), Catch::Contains("its metadata seed is '1e9'"));
+    CHECK_THROWS_WITH(settings_in({{"mis", "max"}}), Catch::Contains("power, balance"));
+}
+
 TEST_CASE("names of settings lead back to them, and an unknown one lists the others", "[render]") {
     for (const Integrator value : {Integrator::brdf, Integrator::direct, Integrator::path}) {
         CHECK(integrator_from_name(name_of(value)) == value);

@@ -79,7 +79,7 @@ TEST_CASE("Films that do not belong together are not merged") {
         }
         return std::string();
     };
-    CHECK(refusal(film) == "film: cannot merge: both have samples 0 to 3 of seed 0");
+    CHECK(refusal(film) == "film: has samples 0:4 in common with the film it is merged into");
     dp::Settings settings = small_settings();
     settings.seed = 1;
     settings.max_depth = 2;

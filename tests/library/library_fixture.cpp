@@ -79,6 +79,15 @@ dp::Film rendered(const dp::Scene& scene, dp::Backend backend, const dp::Setting
     return session.film();
 }
 
+std::string message_of(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const dp::Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
 Folder::Folder() {
     std::string pattern = (std::filesystem::temp_directory_path() / "diptych-library-XXXXXX").string();
     path = ::mkdtemp(pattern.data());

@@ -4,6 +4,7 @@
 #include <diptych/diptych.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ std::vector<dp::Backend> panels();
 bool same_bits(const dp::Film& a, const dp::Film& b);
 
 dp::Film rendered(const dp::Scene& scene, dp::Backend backend, const dp::Settings& settings, std::uint32_t spp);
+
+/// What the dp::Error says that the call throws; empty where it throws none.
+std::string message_of(const std::function<void()>& call);
 
 /// Goes when it does.
 struct Folder {

@@ -55,15 +55,6 @@ const std::vector<Fault> faults = {
      "environment: the map has 0 texels; its size is 4x2"},
 };
 
-std::string message_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const dp::Error& error) {
-        return error.what();
-    }
-    return "";
-}
-
 }  // namespace
 
 TEST_CASE("An edit out of range is refused at the next render, by name, and can be taken back") {

@@ -125,3 +125,51 @@ def test_a_film_says_how_it_was_made(film):
     assert (film.width, film.height, film.spp, film.backend, film.nonfinite) == (16, 12, 8, "cpu", 0)
     assert film.settings == dp.Settings(size=(16, 12), seed=1, sample_count=8)
     assert film.rays > film.samples and film.seconds > 0
+
+
+def test_a_film_comes_back_from_its_file(film, floor, tmp_path):
+    film.save(tmp_path / "film.exr", sums=True)
+    again = dp.Film.load(tmp_path / "film.exr")
+    assert again.has_sums and np.array_equal(again.sums, film.sums) and again.settings == film.settings
+    assert (again.file, film.file, again.spp) == (str(tmp_path / "film.exr"), "", 8)
+    assert repr(again) == repr(film) and again._repr_png_() == film._repr_png_()
+    with dp.Session(floor, size=(16, 12), seed=1) as session:
+        session.resume(again)
+        session.render(4)
+        grown = session.film()
+        session.restart()
+        session.render(12)
+        assert np.array_equal(grown.sums, session.film().sums) and grown.spp == 12
+    with pytest.raises(dp.Error, match="another|common|part of the same|has samples"):
+        grown.merge(again)
+
+
+def test_parts_merge_and_gaps_are_named(floor, tmp_path):
+    with dp.Session(floor, size=(16, 12)) as session:
+        for part, (first, count) in enumerate([(0, 4), (4, 4), (8, 8)]):
+            session.restart()
+            session.render(count, first=first)
+            session.film().save(tmp_path / f"{part}.exr", sums=True)
+        session.restart()
+        session.render(16)
+        whole = session.film()
+    paths = [tmp_path / f"{part}.exr" for part in (2, 0, 1)]
+    assert np.array_equal(dp.merge(paths).sums, whole.sums)
+    with pytest.raises(dp.Error, match="no film has samples 4:8 of seed 0"):
+        dp.merge(paths[:2])
+    assert dp.merge([dp.Film.load(path) for path in paths[:2]], partial=True).spp == 12
+
+
+def test_a_picture_without_sums_is_its_layers(film, tmp_path):
+    film.save(tmp_path / "film.exr")
+    film.save(tmp_path / "film.png")
+    exr, png = dp.Film.load(tmp_path / "film.exr"), dp.Film.load(tmp_path / "film.png")
+    assert exr.layers == film.layers and np.array_equal(exr.radiance, film.radiance) and exr.spp == 8
+    assert png.layers == ["radiance"] and repr(png) == f"<Film 16x12, {tmp_path / 'film.png'}>"
+    for picture in (exr, png):
+        with pytest.raises(dp.Error, match="without the sums"):
+            picture.sums
+        with pytest.raises(dp.Error, match="cannot be merged"):
+            picture.merge(film)
+    with pytest.raises(dp.Error, match="film.png holds none"):
+        png["depth"]

@@ -12,7 +12,7 @@
 #include "error.h"
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
-#include "render/film_file.h"
+#include "render/film_parts.h"
 #include "render/merge_films.h"
 #include "render/save_film.h"
 
@@ -36,54 +36,23 @@ struct MergeOptions {
     bool overwrite = false;
 };
 
-struct Part {
-    std::string path;
-    SampleRanges samples;
-};
-
-FilmFile read_part(const std::string& path) {
-    std::optional<FilmFile> file = read_film(path);
-    if (!file) {
-        throw Error(fmt::format("{}: is a picture without the sums of its samples; render it with --samples or --sums",
-                                path));
-    }
-    const auto uneven = file->metadata.find("uneven");
-    if (uneven != file->metadata.end() && uneven->second == "yes") {
-        throw Error(fmt::format("{}: was interrupted within a sample, which some pixels lack; go on from it with --resume "
-                                "first",
-                                path));
-    }
-    return std::move(*file);
-}
-
 double number_of(const FilmFile& file, const char* name) {
     const auto found = file.metadata.find(name);
     return found == file.metadata.end() ? 0 : std::strtod(found->second.c_str(), nullptr);
 }
 
 /// Adds a part to the whole, of which `parts` have come.
-void add_part(const Part& part, const FilmFile& file, const std::vector<Part>& parts, FilmFile& whole) {
-    if (const std::string difference = picture_difference(whole.metadata, file.metadata); !difference.empty()) {
-        throw Error(fmt::format("{}: is no part of the same picture as {}: {}", part.path, parts.front().path, difference));
-    }
-    for (const Part& other : parts) {
-        if (other.path == part.path) {
-            throw Error(fmt::format("{}: is given twice", part.path));
+void add_part(const FilmPart& part, const FilmFile& file, const std::vector<FilmPart>& parts, FilmFile& whole) {
+    require_same_picture(part.name, file.metadata, parts.front().name, whole.metadata);
+    for (const FilmPart& other : parts) {
+        if (other.name == part.name) {
+            throw Error(fmt::format("{}: is given twice", part.name));
         }
-        if (const std::optional<SampleRange> shared = other.samples.shared_with(part.samples)) {
-            throw Error(fmt::format("{}: has samples {} in common with {}", part.path, range_text(*shared), other.path));
-        }
+        require_other_samples(part, other);
     }
     merge_films(file.film, whole.film);
     whole.samples.add(file.samples);
     whole.metadata["seconds"] = fmt::format("{}", number_of(whole, "seconds") + number_of(file, "seconds"));
-}
-
-/// The samples up to the last one that no part has.
-SampleRanges missing_samples(const SampleRanges& samples) {
-    SampleRanges missing = samples.gaps();
-    missing.add({0, samples.ranges().front().first});
-    return missing;
 }
 
 /// The command of one render of them all.
@@ -98,14 +67,9 @@ std::string whole_command(const std::string& command, const SampleRanges& sample
 }
 
 void describe(const MergeOptions& options, FilmFile& whole) {
-    const FilmTotals totals = film_totals(whole.film);
-    whole.metadata["command"] = whole_command(whole.metadata["command"], whole.samples, options.output);
-    whole.metadata["spp"] = fmt::format("{}", whole.samples.count());
-    whole.metadata["samples"] = whole.samples.text();
-    whole.metadata["rays"] = fmt::format("{}", totals.rays);
-    whole.metadata["nonfinite"] = fmt::format("{}", totals.nonfinite);
-    whole.metadata["interrupted"] = "no";
-    whole.metadata["look_at"] = "";
+    const std::string command = whole_command(whole.metadata["command"], whole.samples, options.output);
+    count_anew(whole.film, whole.samples, whole.metadata);
+    whole.metadata["command"] = command;
 }
 
 int run_merge(const MergeOptions& options) {
@@ -117,10 +81,10 @@ int run_merge(const MergeOptions& options) {
         }
     }
     FilmFile whole = read_part(options.parts.front());
-    std::vector<Part> parts = {{options.parts.front(), whole.samples}};
+    std::vector<FilmPart> parts = {{options.parts.front(), whole.samples}};
     for (std::size_t i = 1; i < options.parts.size(); ++i) {
         const FilmFile file = read_part(options.parts[i]);
-        const Part part{options.parts[i], file.samples};
+        const FilmPart part{options.parts[i], file.samples};
         add_part(part, file, parts, whole);
         parts.push_back(part);
     }

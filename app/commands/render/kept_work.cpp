@@ -16,8 +16,6 @@ namespace diptych::core::app {
 
 namespace {
 
-using Metadata = std::map<std::string, std::string>;
-
 /// The number of an entry; 0 where there is none.
 template <class Number>
 Number number_in(const Metadata& metadata, const std::string& name) {
