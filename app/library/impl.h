@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diptych/diptych.h"
+#include "measure/step_hook.h"
 #include "render/film.h"
 #include "render/film_parts.h"
 #include "render/metadata.h"
@@ -137,6 +138,30 @@ private:
 
 /// Throws Error where a film cannot be added to: it has no sums, or sums of no whole samples.
 void require_sums(const FilmData& data);
+
+/// Counts an engine's steps for a program. Must outlive its hook.
+class StepCount {
+public:
+    using Progress = std::function<void(const std::string& step, int done, int steps)>;
+    StepCount(const Progress& progress, int steps) : progress_(progress), steps_(steps) {}
+    core::StepHook hook() const {
+        return [this](const std::string& step) {
+            if (progress_) {
+                progress_(step, done_++, steps_);
+            }
+        };
+    }
+
+private:
+    const Progress& progress_;
+    int steps_;
+    mutable int done_ = 0;
+};
+
+// measure.cpp: what engines render, without layers, and how they open it.
+core::RenderRequest measured_request(const core::Scene& content, const Settings& settings, const std::string& device,
+                                     int threads);
+core::Session open_measured(const core::Scene& scene, const core::RenderRequest& request, bool plays);
 
 // convert.cpp
 Tables tables_of(const core::Scene& scene);

@@ -24,10 +24,6 @@ core::SideName to_core(const Side& side) {
     return name;
 }
 
-core::Session open_session(const core::Scene& scene, const core::RenderRequest& request, bool) {
-    return {scene, request.settings, core::app::renderer_maker(request)};
-}
-
 Verdict verdict_of(const core::PairResult& pair, const core::TileGrid& grid) {
     const core::TileComparison& c = pair.comparison;
     Verdict out;
@@ -49,6 +45,22 @@ Verdict verdict_of(const core::PairResult& pair, const core::TileGrid& grid) {
 
 }  // namespace
 
+core::RenderRequest measured_request(const core::Scene& content, const Settings& settings, const std::string& device,
+                                     int threads) {
+    core::RenderRequest request;
+    request.scene = content.name;
+    request.device = device;
+    request.threads = threads;
+    request.settings = to_core(settings);
+    request.settings.standard_error = false;
+    request.settings.first_hit_layers = false;
+    return request;
+}
+
+core::Session open_measured(const core::Scene& scene, const core::RenderRequest& request, bool) {
+    return {scene, request.settings, core::app::renderer_maker(request)};
+}
+
 static_assert(static_cast<int>(core::Verdict::inconclusive) == static_cast<int>(VerdictKind::inconclusive));
 
 Verdict verify(const Scene& scene, const VerifyOptions& options) {
@@ -69,19 +81,13 @@ Verdict verify(const Scene& scene, const VerifyOptions& options) {
         settings.alpha = options.alpha;
         settings.max_half_width = options.max_half_width;
         settings.max_tile_half_width = options.max_tile_half_width;
-        core::RenderRequest request;
-        request.scene = content->name;
-        request.device = options.device;
-        request.threads = options.threads;
+        core::RenderRequest request = measured_request(*content, options.settings, options.device, options.threads);
         request.spp = options.spp;
-        request.settings = diptych::to_core(options.settings);
-        request.settings.standard_error = false;
-        request.settings.first_hit_layers = false;
         const StopFlag stop(options.stop);
         std::mutex mutex;  // sides on different backends render at the same time
         std::uint32_t begun = 0;
         const std::optional<core::SuiteResult> suite =
-            core::run_suite(settings, {*content, request, open_session}, {{to_core(options.a), to_core(options.b), {}}},
+            core::run_suite(settings, {*content, request, open_measured}, {{to_core(options.a), to_core(options.b), {}}},
                             options.settings.seed, stop.flag(), [&](const core::SideName&, std::uint32_t) {
                                 if (options.progress) {
                                     const std::lock_guard lock(mutex);

@@ -8,4 +8,8 @@ std::string program_version() {
     return core::build_info::program();
 }
 
+std::string program_commit() {
+    return core::build_info::commit;
+}
+
 DIPTYCH_END

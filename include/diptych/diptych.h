@@ -1,6 +1,8 @@
 // Diptych, a renderer with two panels. All of the library.
 #pragma once
 
+#include "diptych/bench.h"
+#include "diptych/converge.h"
 #include "diptych/error.h"
 #include "diptych/film.h"
 #include "diptych/measure.h"

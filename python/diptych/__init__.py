@@ -43,21 +43,28 @@ from ._diptych import (
     load_environment,
     look_at,
 )
+from .convergence import Convergence, Estimate, MethodConvergence, converge
 from .measure import Comparison, Replay, Verdict, compare, replay, verify
+from .rates import Bench, IntegratorRate, bench
 from .rendering import Session, merge, render
 
 __all__ = [
+    "Bench",
     "Camera",
     "Capabilities",
     "Comparison",
+    "Convergence",
     "DeviceLost",
     "Environment",
     "Error",
+    "Estimate",
     "Film",
     "Instance",
+    "IntegratorRate",
     "Interrupted",
     "Light",
     "Material",
+    "MethodConvergence",
     "NoDevice",
     "OutOfMemory",
     "Progress",
@@ -73,7 +80,9 @@ __all__ = [
     "UnknownName",
     "Verdict",
     "__version__",
+    "bench",
     "compare",
+    "converge",
     "devices",
     "load",
     "load_environment",

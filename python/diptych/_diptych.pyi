@@ -421,6 +421,31 @@ def verify(
     threads: int,
     progress: Optional[Callable[[int, int], object]],
 ) -> Dict[str, Any]: ...
+def bench(
+    scene: Scene,
+    integrators: List[str],
+    spp: int,
+    frames: int,
+    backend: str,
+    device: str,
+    threads: int,
+    settings: Settings,
+    progress: Optional[Callable[[str, int, int], object]],
+) -> Dict[str, Any]: ...
+def converge(
+    scene: Scene,
+    methods: List[str],
+    seconds: float,
+    spp_max: int,
+    runs: int,
+    reference: Union[Film, str, os.PathLike[str]],
+    target_relmse: float,
+    picture_seconds: float,
+    device: str,
+    threads: int,
+    settings: Settings,
+    progress: Optional[Callable[[str, int, int], object]],
+) -> Dict[str, Any]: ...
 @overload
 def compare(a: Film, b: Film) -> Dict[str, Any]: ...
 @overload

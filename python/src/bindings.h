@@ -14,12 +14,6 @@ namespace diptych::python {
 
 namespace py = pybind11;
 
-/// A setting or an argument that cannot be: in Python a ValueError too.
-class SettingError : public Error {
-public:
-    using Error::Error;
-};
-
 /// A name that the scene or the film does not have: in Python a KeyError too.
 class UnknownName : public Error {
 public:
@@ -32,6 +26,7 @@ void bind_scene(py::module_& module);
 void bind_film(py::module_& module);
 void bind_session(py::module_& module);
 void bind_measure(py::module_& module);
+void bind_engines(py::module_& module);
 
 /// Issues diptych.SceneWarning for each line, as of the line of Python that lies `depth` calls up. Throws where
 /// Python's filters make an error of it.
@@ -42,8 +37,6 @@ inline std::string path_of(const py::object& path) {
     return py::str(py::module_::import("os").attr("fspath")(path));
 }
 
-/// As backend_from, but its error is a SettingError.
-Backend backend_named(const std::string& name);
 /// Refuses what the backend would not heed.
 BackendChoice choice_of(const std::string& backend, const std::string& device, int threads, bool validation);
 

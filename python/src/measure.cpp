@@ -1,66 +1,16 @@
 // The comparisons. Results are dicts, which the package's dataclasses are made of.
-#include <future>
-
-#include "bindings.h"
+#include "interruptible.h"
 
 namespace diptych::python {
 
 namespace {
 
-/// Runs the function on a thread of its own, while this one, which is Python's, looks for Ctrl-C. The function gets a
-/// token that Ctrl-C stops.
-template <typename Function>
-auto interruptible(std::stop_source& stop, Function function) {
-    auto result = std::async(std::launch::async, std::move(function));
-    bool interrupted = false;
-    const auto finished = [&] {
-        const py::gil_scoped_release others_run;
-        return result.wait_for(std::chrono::milliseconds(100)) == std::future_status::ready;
-    };
-    while (!finished()) {
-        if (!interrupted && PyErr_CheckSignals() != 0) {
-            interrupted = true;
-            stop.request_stop();
-        }
-    }
-    if (!interrupted) {
-        return result.get();
-    }
-    const py::error_already_set raised;  // takes the pending exception; the work's own end is no news
-    throw raised;
-}
-
 py::dict verified(const Scene& scene, const VerifyOptions& wanted, const py::object& progress) {
+    StoppableCall call(progress);
     VerifyOptions options = wanted;
-    std::stop_source stop;
-    std::unique_ptr<py::error_already_set> raised;
-    options.stop = stop.get_token();
-    if (!progress.is_none()) {
-        options.progress = [&](std::uint32_t run, std::uint32_t runs) {
-            const py::gil_scoped_acquire locked;
-            try {
-                progress(run, runs);
-            } catch (py::error_already_set& error) {
-                raised = std::make_unique<py::error_already_set>(std::move(error));
-                stop.request_stop();
-            }
-        };
-    }
-    const auto raise_if_any = [&] {
-        if (raised) {
-            raised->restore();
-            raised.reset();
-            throw py::error_already_set();
-        }
-    };
-    Verdict verdict;
-    try {
-        verdict = interruptible(stop, [&] { return verify(scene, options); });
-    } catch (const Interrupted&) {
-        raise_if_any();
-        throw;
-    }
-    raise_if_any();
+    options.stop = call.token();
+    options.progress = [&](std::uint32_t run, std::uint32_t runs) { call.report(run, runs); };
+    Verdict verdict = call.run([&] { return verify(scene, options); });
     py::dict members;
     const char* const names[] = {"PASS", "FAIL", "INCONCLUSIVE"};
     members["verdict"] = names[static_cast<int>(verdict.verdict)];
@@ -75,13 +25,9 @@ py::dict verified(const Scene& scene, const VerifyOptions& wanted, const py::obj
 
 Side side_of(const std::string& text) {
     const std::size_t colon = text.find(':');
-    Side side{backend_named(text.substr(0, colon))};
+    Side side{backend_from(text.substr(0, colon))};
     if (colon != std::string::npos) {
-        try {
-            side.integrator = integrator_from(text.substr(colon + 1));
-        } catch (const Error& error) {
-            throw SettingError(error.what());
-        }
+        side.integrator = integrator_from(text.substr(colon + 1));
     }
     return side;
 }

@@ -11,4 +11,5 @@ PYBIND11_MODULE(_diptych, module) {
     bind_film(module);
     bind_session(module);
     bind_measure(module);
+    bind_engines(module);
 }

@@ -123,16 +123,8 @@ double as_written(float value) {
     return result;
 }
 
-Backend backend_named(const std::string& name) {
-    try {
-        return backend_from(name);
-    } catch (const Error& error) {
-        throw SettingError(error.what());
-    }
-}
-
 BackendChoice choice_of(const std::string& backend, const std::string& device, int threads, bool validation) {
-    const BackendChoice choice{backend_named(backend), device, threads, validation};
+    const BackendChoice choice{backend_from(backend), device, threads, validation};
     const bool vulkan = choice.backend == Backend::vulkan;
     if (!vulkan && !device.empty()) {
         throw SettingError("device: goes with backend vulkan");

@@ -136,7 +136,7 @@ TEST_CASE("converge measures, plots and writes a page", "[app]") {
     }
     CHECK(json.at("methods")[0].at("sampler") == "independent");
     CHECK(json.at("methods")[1].at("sampler") == "hammersley");
-    CHECK(json.at("reference").at("method") == "cpu:path with --mis balance");  // `path` itself is measured
+    CHECK(json.at("reference").at("method") == "cpu:path with mis balance");  // `path` itself is measured
     CHECK(json.at("reference").at("spp") == 16 * 8);
     CHECK(json.at("interrupted") == false);
     CHECK(read_csv(at("summary.csv")).size() == 8);

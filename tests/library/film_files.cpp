@@ -163,9 +163,13 @@ TEST_CASE("A session goes on from a film in a file, to the bits of one that took
         INFO(dp::name_of(backend));
         dp::BackendChoice choice;
         choice.backend = backend;
-        const dp::Film whole = rendered(scene, backend, small_settings(), 9);
-        rendered(scene, backend, small_settings(), 5).save(folder.file("film.exr"), {.sums = true});
         dp::Session session(scene, choice, small_settings());
+        session.render(5);
+        session.film().save(folder.file("film.exr"), {.sums = true});
+        session.restart();
+        session.render(9);
+        const dp::Film whole = session.film();
+        session.restart();
         session.resume(dp::Film::load(folder.file("film.exr")));
         CHECK(session.film().info().spp == 5);
         CHECK(session.render(4).spp == 4);

@@ -10,14 +10,16 @@ import sys
 import pytest
 
 import diptych as dp
+import diptych.convergence
 import diptych.measure
+import diptych.rates
 import diptych.rendering
 from conftest import ROOT
 
 
 def examples():
     finder = doctest.DocTestFinder(exclude_empty=True)
-    for module in (dp, diptych.measure, diptych.rendering):
+    for module in (dp, diptych.convergence, diptych.measure, diptych.rates, diptych.rendering):
         yield from finder.find(module, module.__name__)
     for name in dp.__all__:  # what is compiled belongs to no module that doctest knows
         thing = getattr(dp, name)

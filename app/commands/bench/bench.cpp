@@ -11,7 +11,7 @@
 #include "console/report.h"
 #include "console/step_line.h"
 #include "error.h"
-#include "measure/bench.h"
+#include "measure/bench_table.h"
 #include "session/open_session.h"
 #include "session/scene_setup.h"
 #include "settings/names.h"
@@ -43,22 +43,6 @@ BenchSettings settings_of(const BenchOptions& options) {
     settings.spp = options.spp;
     settings.frames = options.frames;
     return settings;
-}
-
-void print_bench(const BenchResult& result, const RenderSettings& settings) {
-    print_result("{} at {}x{}, {}\n", result.backend, settings.width, settings.height, result.device);
-    print_result("{:<10} {:>10} {:>12} {:>10} {:>12} {:>10} {:>10}\n", "integrator", "ms/frame", "Msamples/s", "Mray/s",
-                 "bare Mray/s", "of bare", "of brdf");
-    for (const IntegratorBench& bench : result.integrators) {
-        print_result("{:<10} {:>10.3f} {:>12.3f} {:>10.2f} {:>12} {:>10} {:>10}\n", name_of(bench.integrator),
-                     bench.milliseconds, bench.samples_per_second / 1e6, bench.rays_per_second / 1e6,
-                     bench.bare ? fmt::format("{:.2f}", bench.bare->rays_per_second / 1e6) : "-",
-                     bench.bare ? fmt::format("{:.1f}%", 100 * bench.bare->share) : "-",
-                     bench.cost_relative_to_brdf ? fmt::format("{:.2f}x", *bench.cost_relative_to_brdf) : "-");
-        for (const PassTime& pass : bench.passes) {
-            print_result("  {:<18} {:>10.3f}\n", pass.pass, 1000 * pass.seconds);
-        }
-    }
 }
 
 nlohmann::ordered_json to_json(const IntegratorBench& bench) {
@@ -127,7 +111,7 @@ int run_bench(BenchOptions options) {
     if (result && options.json) {
         print_json(to_json(*result, options, interrupted));
     } else if (result) {
-        print_bench(*result, request.settings);
+        print_result("{}", bench_table(*result, request.settings.width, request.settings.height));
     }
     if (interrupted) {
         report_error(fmt::format("{}: interrupted after {} of {} frames", request.scene, result ? result->frames : 0,

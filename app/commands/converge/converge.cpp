@@ -4,22 +4,24 @@
 
 #include <memory>
 
+#include "build_info.h"
 #include "clock.h"
 #include "commands/arguments/device_loss.h"
 #include "commands/command.h"
-#include "commands/converge/charts.h"
-#include "commands/converge/page.h"
-#include "commands/converge/pictures.h"
 #include "commands/converge/plan.h"
-#include "commands/converge/report.h"
 #include "console/interrupt.h"
+#include "console/output.h"
 #include "console/report.h"
 #include "console/step_line.h"
 #include "error.h"
 #include "image/atomic_file.h"
 #include "image/image_file.h"
 #include "image/picture_name.h"
+#include "measure/converge/charts.h"
 #include "measure/converge/measurement.h"
+#include "measure/converge/page.h"
+#include "measure/converge/pictures.h"
+#include "measure/converge/report.h"
 #include "console/repeat_command.h"
 #include "session/input_files.h"
 #include "session/open_session.h"
@@ -41,11 +43,15 @@ samples per pixel. The report shows the error over samples and time, its slope, 
 error. Open index.html in the output folder when it is done. Ctrl-C stops; the same command continues from there.
 docs/converge.md describes the files.)";
 
+ReportHead head_of(const ConvergeOptions& options) {
+    return {options.arguments.request, options, build_info::commit, options.command};
+}
+
 /// Writes what the results so far say into the folder; all of it as JSON.
 nlohmann::ordered_json write_report(const ConvergeOptions& options, const std::vector<Method>& methods,
                                     const ConvergeSummary& summary, const ReferencePicture& reference,
                                     const ConvergeState& state) {
-    nlohmann::ordered_json json = summary_to_json(options, summary, reference, state);
+    nlohmann::ordered_json json = summary_to_json(head_of(options), summary, reference, state);
     write_page_pictures(methods, reference, options.page_side, state);
     write_file_atomically(state.path("summary.json"), json.dump(2) + "\n");
     write_file_atomically(state.path("summary.csv"), summary_to_csv(summary));
@@ -80,7 +86,7 @@ void refuse_to_write_over_inputs(const ConvergeOptions& options, const std::vect
 }
 
 ConvergeSubject plan_subject(const ConvergeOptions& options, const Scene& scene) {
-    ConvergeSubject subject{scene, plan_methods(options), {}, {}, open_requested,
+    ConvergeSubject subject{scene, planned_methods(options), {}, {}, open_requested,
                             device_loss_policy(options.on_device_lost, false, options.arguments.request)};
     refuse_to_write_over_inputs(options, subject.methods);
     if (reference_is_file(options)) {
@@ -88,7 +94,7 @@ ConvergeSubject plan_subject(const ConvergeOptions& options, const Scene& scene)
         subject.given_reference = load_reference(options.reference, settings.width, settings.height,
                                                  options.arguments.request.memory_limit);
     } else {
-        subject.reference = plan_reference(options, subject.methods);
+        subject.reference = planned_reference(options, subject.methods);
     }
     return subject;
 }
@@ -130,7 +136,8 @@ int run_converge(ConvergeOptions options) {
         if (const std::optional<ConvergeSummary> summary = measurement.summary()) {
             json = write_report(options, subject.methods, *summary, *measurement.reference(), state);
             if (!options.json) {
-                print_summary(options, *summary, *measurement.reference());
+                print_result("{} Page: {}/index.html\n",
+                             summary_table(head_of(options), *summary, *measurement.reference()), options.folder);
             }
         }
     }

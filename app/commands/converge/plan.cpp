@@ -23,60 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> parts_of(const std::string& text) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == ':') {
-            parts.emplace_back();
-        } else {
-            parts.back() += c;
-        }
-    }
-    return parts;
-}
-
-bool is_backend(const std::string& name) {
-    return name == "cpu" || name == "vulkan" || name == "oracle";
-}
-
-Method parse_method(const char* option, const std::string& text, const RenderRequest& base, const SeedPlan& seeds,
-                    std::uint32_t place) {
-    const std::vector<std::string> parts = parts_of(text);
-    const std::string& backend = parts.front();
-    if (!is_backend(backend)) {
-        throw Error(
-            fmt::format("{} {}: expected BACKEND:INTEGRATOR; the backends are cpu, vulkan, oracle", option, text));
-    }
-    const bool oracle = backend == "oracle";
-    if (parts.size() > (oracle ? 2U : 3U) || (!oracle && parts.size() < 2)) {
-        throw Error(
-            fmt::format("{} {}: expected cpu:INTEGRATOR[:SAMPLER], vulkan:INTEGRATOR[:SAMPLER] or oracle[:MODE]",
-                        option, text));
-    }
-    Method method{.name = text, .request = base, .seeds = seeds, .place = place};
-    method.request.settings.seed = method.seed_of(0);
-    method.request.backend = backend;
-    if (backend == "vulkan") {
-        method.request.threads = 0;
-    } else {
-        method.request.device.clear();
-        method.request.validation = false;
-    }
-    try {
-        if (oracle) {
-            method.request.oracle_mode = parts.size() > 1 ? parts[1] : RenderRequest{}.oracle_mode;
+/// The oracle's modes are its own.
+void check_mode(const char* option, const Method& method) {
+    if (method.request.backend == "oracle") {
+        try {
             oracle_mode_from_name(method.request.oracle_mode);
-            method.request.settings.integrator = Integrator::path;
-        } else {
-            method.request.settings.integrator = integrator_from_name(parts[1]);
-            if (parts.size() > 2) {
-                method.request.settings.sampler = sampler_from_name(parts[2]);
-            }
+        } catch (const Error& error) {
+            throw Error(fmt::format("{} {}: {}", option, method.name, error.what()));
         }
-    } catch (const Error& error) {
-        throw Error(fmt::format("{} {}: {}", option, text, error.what()));
     }
-    return method;
 }
 
 std::string digest(const std::string& path) {
@@ -121,9 +76,9 @@ void check_converge_options(ConvergeOptions& options) {
     };
     const RenderRequest& request = options.arguments.request;
     const auto on = [](const char* backend) {
-        return [backend](const std::string& name) { return parts_of(name).front() == backend; };
+        return [backend](const std::string& name) { return backend_in(name) == backend; };
     };
-    const bool vulkan = any(on("vulkan")) || parts_of(options.reference).front() == "vulkan";
+    const bool vulkan = any(on("vulkan")) || backend_in(options.reference) == "vulkan";
     if (!vulkan && (!request.device.empty() || request.validation)) {
         throw Error(
             fmt::format("{}: works only with a method on vulkan", request.validation ? "--validation" : "--device"));
@@ -133,7 +88,8 @@ void check_converge_options(ConvergeOptions& options) {
     }
     const bool resampled = any([&](const std::string& name) {
         const SeedPlan any_seeds(options.seed, SeedPurpose::converge, 1, 1);
-        const Method method = parse_method("--methods", name, request, any_seeds, 0);
+        const Method method = method_named("`methods`", name, request, any_seeds, 0);
+        check_mode("`methods`", method);
         return method.request.backend != "oracle" && resamples(method.request.settings.integrator);
     });
     refuse_idle_resampling_options(names, resampled);
@@ -142,61 +98,18 @@ void check_converge_options(ConvergeOptions& options) {
     }
 }
 
-std::vector<Method> plan_methods(const ConvergeOptions& options) {
-    const auto count = static_cast<std::uint32_t>(options.methods.size());
-    const SeedPlan runs(options.seed, SeedPurpose::converge, count, options.runs);
-    const SeedPlan pictures(options.seed, SeedPurpose::converge_picture, count, 1);
-    std::vector<Method> methods;
-    for (const std::string& name : options.methods) {
-        const auto same = [&](const Method& method) { return method.name == name; };
-        if (std::any_of(methods.begin(), methods.end(), same)) {
-            throw Error(fmt::format("--methods: {} is named twice", name));
-        }
-        const auto place = static_cast<std::uint32_t>(methods.size());
-        Method method = parse_method("--methods", name, options.arguments.request, runs, place);
-        method.picture_seed = pictures.seed(place, 0);
-        methods.push_back(method);
-    }
-    return methods;
+std::vector<Method> planned_methods(const ConvergeOptions& options) {
+    return plan_methods(options.methods, options.arguments.request, options.seed, options.runs);
 }
 
 bool reference_is_file(const ConvergeOptions& options) {
-    return options.reference != "auto" && !is_backend(parts_of(options.reference).front());
+    return options.reference != "auto" && !names_method(options.reference);
 }
 
-Method plan_reference(const ConvergeOptions& options, const std::vector<Method>& methods) {
-    RenderRequest base = options.arguments.request;
-    base.settings.sampler = SamplerKind::sobol;
-    const SeedPlan blocks(options.seed, SeedPurpose::converge_reference, 1, reference_blocks);
-    const auto parse = [&](const std::string& text) { return parse_method("--reference", text, base, blocks, 0); };
-    if (options.reference != "auto") {
-        return parse(options.reference);
-    }
-    std::string first;
-    for (const char* backend : {"vulkan", "cpu", "oracle"}) {
-        const auto uses = [&](const Method& method) { return method.request.backend == backend; };
-        if (std::none_of(methods.begin(), methods.end(), uses)) {
-            continue;
-        }
-        const std::string name = std::string(backend) == "oracle" ? backend : std::string(backend) + ":path";
-        first = first.empty() ? name : first;
-        const bool taken = std::any_of(methods.begin(), methods.end(), [&](const Method& method) {
-            return uses(method) &&
-                   (method.request.backend == "oracle" ? method.request.oracle_mode == RenderRequest{}.oracle_mode
-                                                       : method.request.settings.integrator == Integrator::path);
-        });
-        if (!taken) {
-            return parse(name);
-        }
-    }
-    if (first == "oracle") {
-        return parse("cpu:path");
-    }
-    Method method = parse(first);
-    method.request.settings.mis =
-        base.settings.mis == MisHeuristic::power ? MisHeuristic::balance : MisHeuristic::power;
-    method.name += fmt::format(" with --mis {}", name_of(method.request.settings.mis));
-    return method;
+Method planned_reference(const ConvergeOptions& options, const std::vector<Method>& methods) {
+    Method reference = plan_reference(options.reference, options.arguments.request, options.seed, methods);
+    check_mode("`reference`", reference);
+    return reference;
 }
 
 nlohmann::ordered_json plan_to_json(const ConvergeOptions& options, const std::vector<Method>& methods) {
@@ -221,7 +134,7 @@ nlohmann::ordered_json plan_to_json(const ConvergeOptions& options, const std::v
         json["reference"] = options.reference;
         json["reference_digest"] = digest(options.reference);
     } else {
-        json["reference"] = entry(plan_reference(options, methods));
+        json["reference"] = entry(planned_reference(options, methods));
     }
     return json;
 }

@@ -7,8 +7,7 @@
 
 #include "commands/arguments/arguments.h"
 #include "file_lock.h"
-#include "measure/converge/method.h"
-#include "measure/converge/reference.h"
+#include "measure/converge/plan.h"
 
 namespace diptych::core::app {
 
@@ -29,11 +28,10 @@ struct ConvergeOptions : ConvergeSettings {
 void check_converge_options(ConvergeOptions& options);
 
 /// Throws Error for a method that does not exist or is named twice. Needs the scene prepared, for size and camera.
-std::vector<Method> plan_methods(const ConvergeOptions& options);
+std::vector<Method> planned_methods(const ConvergeOptions& options);
 
-/// What --reference names, where that is no file; `auto` is `path` on a backend for which it is not among the methods,
-/// else `path` with the other MIS weights. Always over scrambled Sobol' sets, with seeds of its own.
-Method plan_reference(const ConvergeOptions& options, const std::vector<Method>& methods);
+/// The method that --reference names, where that is no file.
+Method planned_reference(const ConvergeOptions& options, const std::vector<Method>& methods);
 bool reference_is_file(const ConvergeOptions& options);
 
 /// All that the results depend on, the program and the scene's file included.
@@ -43,8 +41,5 @@ nlohmann::ordered_json plan_to_json(const ConvergeOptions& options, const std::v
 /// difference, and one that another process measures into. The folder belongs to this process as long as it keeps the
 /// lock. Throws Error.
 [[nodiscard]] FileLock claim_folder(const ConvergeOptions& options, const nlohmann::ordered_json& plan);
-
-/// The picture that --reference names, of the given size with three channels. Throws Error.
-ReferencePicture load_reference(const std::string& path, int width, int height, std::uint64_t memory_limit);
 
 }  // namespace diptych::core::app

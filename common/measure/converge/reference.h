@@ -35,4 +35,10 @@ ReferenceNoise noise_of(const ReferencePicture& reference);
 /// it was made. `method`: a file, or what rendered it.
 ReferencePicture reference_of(LayeredImage image, std::string method);
 
+/// The same of a picture that a user names. Throws Error where it has another size, or is not whole and finite.
+ReferencePicture checked_reference(LayeredImage image, const std::string& name, int width, int height);
+
+/// And of a file. Throws Error.
+ReferencePicture load_reference(const std::string& path, int width, int height, std::uint64_t memory_limit);
+
 }  // namespace diptych::core

@@ -8,7 +8,7 @@
 #include "chart/chart.h"
 #include "measure/converge/state.h"
 
-namespace diptych::core::app {
+namespace diptych::core {
 
 struct ErrorChart {
     std::string what;  // the button that chooses it: "relMSE"
@@ -23,4 +23,4 @@ std::vector<ErrorChart> error_charts(const nlohmann::ordered_json& summary);
 /// error-time.svg and error-samples.svg in the folder. Throws Error.
 void write_charts(const nlohmann::ordered_json& summary, const ConvergeState& state);
 
-}  // namespace diptych::core::app
+}  // namespace diptych::core

@@ -1,4 +1,4 @@
-#include "commands/converge/charts.h"
+#include "measure/converge/charts.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "chart/number_text.h"
 #include "image/atomic_file.h"
 
-namespace diptych::core::app {
+namespace diptych::core {
 
 namespace {
 
@@ -41,7 +41,7 @@ constexpr Quantity quantities[] = {
      "are negative and not drawn, and the others fall as the noise does."},
 };
 
-struct Progress {
+struct Abscissa {
     const char* button;
     const char* label;
     const char* key;
@@ -49,16 +49,16 @@ struct Progress {
     chart::TickText text;
 };
 
-constexpr Progress progresses[] = {
+constexpr Abscissa abscissae[] = {
     {"Time", "rendering time", "device_seconds", chart::Scale::decimal, chart::TickText::seconds},
     {"Wall clock", "rendering time by the wall clock", "wall_seconds", chart::Scale::decimal,
      chart::TickText::seconds},
     {"Samples", "samples per pixel", "spp", chart::Scale::binary, chart::TickText::number},
 };
 
-chart::Point point_of(const Json& checkpoint, const Quantity& quantity, const Progress& progress) {
+chart::Point point_of(const Json& checkpoint, const Quantity& quantity, const Abscissa& abscissa) {
     const Json& value = checkpoint.at(quantity.key);
-    chart::Point point{number(checkpoint.at(progress.key)), 0, chart::no_band, chart::no_band, ""};
+    chart::Point point{number(checkpoint.at(abscissa.key)), 0, chart::no_band, chart::no_band, ""};
     if (!value.is_object()) {
         point.y = number(value);
         return point;
@@ -86,14 +86,14 @@ std::string note_of(const std::string& method, const Json& checkpoint, const Qua
                        band);
 }
 
-chart::Chart chart_of(const Json& summary, const Quantity& quantity, const Progress& progress) {
+chart::Chart chart_of(const Json& summary, const Quantity& quantity, const Abscissa& abscissa) {
     chart::Chart chart;
-    chart.x = {progress.label, progress.scale, progress.text, {}, {}};
+    chart.x = {abscissa.label, abscissa.scale, abscissa.text, {}, {}};
     chart.y = {quantity.label, chart::Scale::decimal, chart::TickText::number, {}, {}};
     for (const Json& method : summary.at("methods")) {
         chart::Series series{method.at("method"), {}, chart::Shape::line};
         for (const Json& checkpoint : method.at("checkpoints")) {
-            chart::Point point = point_of(checkpoint, quantity, progress);
+            chart::Point point = point_of(checkpoint, quantity, abscissa);
             point.note = note_of(series.name, checkpoint, quantity, point);
             series.points.push_back(point);
         }
@@ -110,25 +110,25 @@ chart::Chart chart_of(const Json& summary, const Quantity& quantity, const Progr
 std::vector<ErrorChart> error_charts(const Json& summary) {
     std::vector<ErrorChart> charts;
     for (const Quantity& quantity : quantities) {
-        for (const Progress& progress : progresses) {
+        for (const Abscissa& abscissa : abscissae) {
             charts.push_back(
-                {quantity.button, progress.button, chart_of(summary, quantity, progress), quantity.note});
+                {quantity.button, abscissa.button, chart_of(summary, quantity, abscissa), quantity.note});
         }
     }
     return charts;
 }
 
 void write_charts(const Json& summary, const ConvergeState& state) {
-    const auto write = [&](const char* name, const Progress& progress) {
-        chart::Chart chart = chart_of(summary, quantities[0], progress);
+    const auto write = [&](const char* name, const Abscissa& abscissa) {
+        chart::Chart chart = chart_of(summary, quantities[0], abscissa);
         chart.title = fmt::format("{}, {}×{}, {} runs", summary.at("scene").get<std::string>(),
                                   summary.at("width").get<int>(), summary.at("height").get<int>(),
                                   summary.at("runs").get<int>());
         chart.note = "Mean over the runs, with its 95 % band. Dotted: 1/N, as the error of independent samples falls.";
         write_file_atomically(state.path(name), chart::chart_svg(chart));
     };
-    write("error-time.svg", progresses[0]);
-    write("error-samples.svg", progresses[2]);
+    write("error-time.svg", abscissae[0]);
+    write("error-samples.svg", abscissae[2]);
 }
 
-}  // namespace diptych::core::app
+}  // namespace diptych::core

@@ -151,13 +151,14 @@ const countText = n => n >= 1 << 20 ? +(n / (1 << 20)).toFixed(1) + " Mi" : n >=
   byId("table-note").textContent = `Time to relMSE ${figure(data.target_relmse)}, which half of the methods reach unless another was asked for; < and >: before the first and after the last measurement. Efficiency: of the best, at each method's last count.`;
 
   byId("command").textContent = data.command;
+  byId("command").hidden = !data.command;  // a program of others measured
   const reference = data.reference;
   const entry = (name, text) => byId("made").append(element("dt", name), element("dd", text));
   entry("Reference", reference.method + (reference.spp ? `, ${reference.spp} samples a pixel` : "") +
     (reference.variance_known ? `; its own noise is ${figure(reference.mse)} of the MSE and ${figure(reference.relmse)} of the relMSE of everything here, and is taken off where slopes, bias and times are told` : "; its own noise is not known, and counts as bias"));
   entry("Devices", devices.join(", "));
   entry("Program", data.program);
-  entry("Loading", `${seconds(data.load_seconds)}, the same for all`);
+  if (data.load_seconds != null) entry("Loading", `${seconds(data.load_seconds)}, the same for all`);
   const bytes = b => b == null ? "–" : b > 1 << 30 ? (b / (1 << 30)).toFixed(2) + " GiB" : (b / (1 << 20)).toFixed(1) + " MiB";
   const setup = key => m => m.setup ? seconds(m.setup[key]) : "–";
   fill(byId("costs"), [

@@ -1,4 +1,4 @@
-#include "commands/converge/page.h"
+#include "measure/converge/page.h"
 
 #include <fmt/format.h>
 
@@ -9,13 +9,13 @@
 #include <iterator>
 
 #include "chart/svg.h"
-#include "commands/converge/charts.h"
+#include "measure/converge/charts.h"
 #include "image/atomic_file.h"
 #include "input_file.h"
 #include "measure/converge/method.h"
 #include "page_texts.h"
 
-namespace diptych::core::app {
+namespace diptych::core {
 
 namespace {
 
@@ -72,11 +72,12 @@ std::string charts_html(const nlohmann::ordered_json& summary) {
     return html;
 }
 
-/// The colours of the series for the style sheet: --c0, --c1, …
+/// The colours of the series for the style sheet, as custom properties c0, c1, …
 std::string color_variables() {
+    const std::string custom(2, '-');  // begins their names
     std::string css;
     for (const std::string& color : chart::series_colors()) {
-        css += fmt::format("--c{}: {}; ", std::count(css.begin(), css.end(), ';'), color);
+        css += fmt::format("{}c{}: {}; ", custom, std::count(css.begin(), css.end(), ';'), color);
     }
     return ":root { " + css + "}\n";
 }
@@ -97,7 +98,7 @@ std::string filled(std::string_view page, const std::map<std::string, std::strin
 
 }  // namespace
 
-void write_page(const nlohmann::ordered_json& summary, const ConvergeState& state) {
+std::string page_html(const nlohmann::ordered_json& summary, const ConvergeState& state) {
     nlohmann::ordered_json pictures = {{"reference", {{"picture", embedded(state.path("pictures/reference.png"))}}}};
     for (const auto& method : summary.at("methods")) {
         const std::string stem = "pictures/" + file_stem(method.at("method"));
@@ -107,15 +108,18 @@ void write_page(const nlohmann::ordered_json& summary, const ConvergeState& stat
     const std::string scene = summary.at("scene");
     const std::string name =
         scene.substr(scene.find_last_of('/') == std::string::npos ? 0 : scene.find_last_of('/') + 1);
-    write_file_atomically(state.path("index.html"),
-                          filled(page_text("page.html"), {{"TITLE", chart::xml_text(name)},
-                                                          {"STYLE", color_variables() + std::string(page_text("page.css"))},
-                                                          {"CHARTS", charts_html(summary)},
-                                                          {"DATA", script_text(rounded(summary))},
-                                                          {"PICTURES", script_text(pictures)},
-                                                          {"CHART", std::string(page_text("chart.js"))},
-                                                          {"VIEWER", std::string(page_text("viewer.js"))},
-                                                          {"SCRIPT", std::string(page_text("page.js"))}}));
+    return filled(page_text("page.html"), {{"TITLE", chart::xml_text(name)},
+                                           {"STYLE", color_variables() + std::string(page_text("page.css"))},
+                                           {"CHARTS", charts_html(summary)},
+                                           {"DATA", script_text(rounded(summary))},
+                                           {"PICTURES", script_text(pictures)},
+                                           {"CHART", std::string(page_text("chart.js"))},
+                                           {"VIEWER", std::string(page_text("viewer.js"))},
+                                           {"SCRIPT", std::string(page_text("page.js"))}});
 }
 
-}  // namespace diptych::core::app
+void write_page(const nlohmann::ordered_json& summary, const ConvergeState& state) {
+    write_file_atomically(state.path("index.html"), page_html(summary, state));
+}
+
+}  // namespace diptych::core

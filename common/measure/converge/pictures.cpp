@@ -1,4 +1,4 @@
-#include "commands/converge/pictures.h"
+#include "measure/converge/pictures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
 
-namespace diptych::core::app {
+namespace diptych::core {
 
 namespace {
 
@@ -74,4 +74,4 @@ void write_page_pictures(const std::vector<Method>& methods, const ReferencePict
     }
 }
 
-}  // namespace diptych::core::app
+}  // namespace diptych::core

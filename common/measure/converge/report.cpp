@@ -1,16 +1,12 @@
-#include "commands/converge/report.h"
+#include "measure/converge/report.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "build_info.h"
-#include "console/output.h"
-#include "console/repeat_command.h"
 #include "settings/names.h"
-#include "console/report.h"
 
-namespace diptych::core::app {
+namespace diptych::core {
 
 namespace {
 
@@ -49,6 +45,8 @@ Json to_json(const CheckpointSummary& point) {
     return json;
 }
 
+}  // namespace
+
 const char* name_of(TargetTime::Kind kind) {
     switch (kind) {
     case TargetTime::Kind::reached:
@@ -62,13 +60,15 @@ const char* name_of(TargetTime::Kind kind) {
     }
 }
 
+namespace {
+
 /// As results.jsonl has it; null where there is none.
 template <class Event>
 Json event_to_json(const Method& method, const std::optional<Event>& event) {
     return event ? core::to_json(method.name, *event) : Json();
 }
 
-Json to_json(const MethodSummary& summary) {
+Json to_json(const MethodSummary& summary, const PictureMaker& maker) {
     const RenderRequest& request = summary.method->request;
     const bool oracle = request.backend == "oracle";
     Json json;
@@ -88,7 +88,7 @@ Json to_json(const MethodSummary& summary) {
         {"adjusted_p", summary.bias_p}, {"significant", summary.bias_p < bias_alpha}, {"text", summary.bias_text}};
     json["time_to_target"] = {{"kind", name_of(summary.to_target.kind)}, {"device_seconds", summary.to_target.seconds}};
     json["picture"] = event_to_json(*summary.method, summary.picture);
-    json["command"] = repeat_command(request, summary.checkpoints.back().spp);
+    json["command"] = maker.command ? maker.command(request, summary.checkpoints.back().spp) : "";
     json["checkpoints"] = Json::array();
     for (const CheckpointSummary& point : summary.checkpoints) {
         json["checkpoints"].push_back(to_json(point));
@@ -102,19 +102,19 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const ConvergeSummary& summary,
+nlohmann::ordered_json summary_to_json(const ReportHead& head, const ConvergeSummary& summary,
                                        const ReferencePicture& reference, const ConvergeState& state) {
-    const RenderRequest& request = options.arguments.request;
+    const RenderSettings& settings = head.request.settings;
     Json json;
-    json["scene"] = request.scene;
-    json["width"] = request.settings.width;
-    json["height"] = request.settings.height;
-    json["max_depth"] = request.settings.max_depth;
-    json["runs"] = options.runs;
-    json["program"] = program_version();
-    json["commit"] = build_info::commit;
-    json["command"] = options.command;
-    json["load_seconds"] = state.load_seconds().value_or(0);
+    json["scene"] = head.request.scene;
+    json["width"] = settings.width;
+    json["height"] = settings.height;
+    json["max_depth"] = settings.max_depth;
+    json["runs"] = head.settings.runs;
+    json["program"] = head.settings.maker.program;
+    json["commit"] = head.commit;
+    json["command"] = head.command;
+    json["load_seconds"] = state.load_seconds() ? Json(*state.load_seconds()) : Json();
     json["reference"] = {{"method", reference.method},
                          {"spp", reference.spp},
                          {"variance_known", reference.variance_known},
@@ -128,52 +128,78 @@ nlohmann::ordered_json summary_to_json(const ConvergeOptions& options, const Con
     json["equal_seconds"] = summary.equal_seconds;
     json["methods"] = Json::array();
     for (const MethodSummary& method : summary.methods) {
-        json["methods"].push_back(to_json(method));
+        json["methods"].push_back(to_json(method, head.settings.maker));
     }
     return json;
 }
 
+std::span<const SummaryColumn> summary_columns() {
+    using P = CheckpointSummary;
+    static constexpr SummaryColumn columns[] = {
+        {"spp", [](const P& p) -> double { return p.spp; }},
+        {"device_seconds", [](const P& p) { return p.device_seconds; }},
+        {"wall_seconds", [](const P& p) { return p.wall_seconds; }},
+        {"mse", [](const P& p) { return p.mse.value; }},
+        {"mse_low", [](const P& p) { return p.mse.low; }},
+        {"mse_high", [](const P& p) { return p.mse.high; }},
+        {"relmse", [](const P& p) { return p.relmse.value; }},
+        {"relmse_low", [](const P& p) { return p.relmse.low; }},
+        {"relmse_high", [](const P& p) { return p.relmse.high; }},
+        {"relmse_trimmed", [](const P& p) { return p.relmse_trimmed.value; }},
+        {"trimmed_energy", [](const P& p) { return p.trimmed_energy; }},
+        {"mse_net", [](const P& p) { return p.mse_net; }},
+        {"relmse_net", [](const P& p) { return p.relmse_net; }},
+        {"efficiency", [](const P& p) { return p.efficiency; }},
+        {"bias_squared", [](const P& p) { return p.bias.value; }},
+        {"bias_squared_error", [](const P& p) { return p.bias.standard_error; }},
+        {"relative_bias_squared", [](const P& p) { return p.relative_bias.value; }},
+        {"relative_bias_squared_error", [](const P& p) { return p.relative_bias.standard_error; }},
+        {"relative_bias_p", [](const P& p) { return p.relative_bias.p; }},
+        {"heavy", [](const P& p) { return p.relative_bias.heavy; }},
+        {"nonfinite", [](const P& p) { return static_cast<double>(p.nonfinite); }},
+    };
+    return columns;
+}
+
 std::string summary_to_csv(const ConvergeSummary& summary) {
-    std::string text =
-        "method,runs,spp,device_seconds,wall_seconds,mse,mse_low,mse_high,relmse,relmse_low,relmse_high,relmse_trimmed,"
-        "trimmed_energy,mse_net,relmse_net,efficiency,bias_squared,bias_squared_error,relative_bias_squared,relative_"
-        "bias_squared_error,relative_bias_p,heavy,nonfinite\n";
+    std::string text = "method,runs";
+    for (const SummaryColumn& column : summary_columns()) {
+        text += fmt::format(",{}", column.name);
+    }
+    text += "\n";
     for (const MethodSummary& method : summary.methods) {
-        for (const CheckpointSummary& p : method.checkpoints) {
-            text += fmt::format("{},{},{}", method.method->name, method.runs, p.spp);
-            for (const double value :
-                 {p.device_seconds, p.wall_seconds, p.mse.value, p.mse.low, p.mse.high, p.relmse.value, p.relmse.low,
-                  p.relmse.high, p.relmse_trimmed.value, p.trimmed_energy, p.mse_net, p.relmse_net, p.efficiency,
-                  p.bias.value, p.bias.standard_error, p.relative_bias.value, p.relative_bias.standard_error,
-                  p.relative_bias.p, p.relative_bias.heavy}) {
-                text += std::isfinite(value) ? fmt::format(",{:.9g}", value) : ",";
+        for (const CheckpointSummary& point : method.checkpoints) {
+            text += fmt::format("{},{}", method.method->name, method.runs);
+            for (const SummaryColumn& column : summary_columns()) {
+                const double value = column.value(point);
+                const bool counts = value == std::floor(value) && value < 1e15;  // written as they are
+                text += !std::isfinite(value) ? "," : counts ? fmt::format(",{:.0f}", value) : fmt::format(",{:.9g}", value);
             }
-            text += fmt::format(",{}\n", p.nonfinite);
+            text += "\n";
         }
     }
     return text;
 }
 
-void print_summary(const ConvergeOptions& options, const ConvergeSummary& summary, const ReferencePicture& reference) {
-    const RenderSettings& settings = options.arguments.request.settings;
-    print_result("{} at {}x{}, {} runs per method; reference: {}{}\n", options.arguments.request.scene, settings.width,
-                 settings.height, options.runs, reference.method,
-                 reference.spp > 0 ? fmt::format(", {} spp", reference.spp) : "");
-    print_result("{:<26} {:>8} {:>9} {:>10} {:>7} {:>15} {:>13}  bias\n", "method", "spp", "time", "relMSE", "slope",
-                 "95 %", fmt::format("to {:.2g}", summary.target_relmse));
+std::string summary_table(const ReportHead& head, const ConvergeSummary& summary, const ReferencePicture& reference) {
+    const RenderSettings& settings = head.request.settings;
+    std::string text = fmt::format("{} at {}x{}, {} runs per method; reference: {}{}\n", head.request.scene, settings.width,
+                                   settings.height, head.settings.runs, reference.method,
+                                   reference.spp > 0 ? fmt::format(", {} spp", reference.spp) : "");
+    text += fmt::format("{:<26} {:>8} {:>9} {:>10} {:>7} {:>15} {:>13}  bias\n", "method", "spp", "time", "relMSE",
+                        "slope", "95 %", fmt::format("to {:.2g}", summary.target_relmse));
     for (const MethodSummary& method : summary.methods) {
         const CheckpointSummary& last = method.checkpoints.back();
         const char* mark = method.to_target.kind == TargetTime::Kind::earlier ? "<"
                            : method.to_target.kind == TargetTime::Kind::later ? ">"
                                                                               : "";
-        print_result("{:<26} {:>8} {:>9} {:>10.3g} {:>7.3f} {:>15} {:>13}  {}{}\n", method.method->name, last.spp,
-                     time_text(last.device_seconds), last.relmse_net, method.slope_mse.value,
-                     fmt::format("[{:.3f}, {:.3f}]", method.slope_mse.low, method.slope_mse.high),
-                     mark + time_text(method.to_target.seconds), method.bias_text,
-                     last.nonfinite > 0 ? fmt::format("; {} samples were not finite", last.nonfinite) : "");
+        text += fmt::format("{:<26} {:>8} {:>9} {:>10.3g} {:>7.3f} {:>15} {:>13}  {}{}\n", method.method->name, last.spp,
+                            time_text(last.device_seconds), last.relmse_net, method.slope_mse.value,
+                            fmt::format("[{:.3f}, {:.3f}]", method.slope_mse.low, method.slope_mse.high),
+                            mark + time_text(method.to_target.seconds), method.bias_text,
+                            last.nonfinite > 0 ? fmt::format("; {} samples were not finite", last.nonfinite) : "");
     }
-    print_result("\"slope\" is that of log MSE over log samples; independent samples give -1. Page: {}/index.html\n",
-                 options.folder);
+    return text + "\"slope\" is that of log MSE over log samples; independent samples give -1.";
 }
 
-}  // namespace diptych::core::app
+}  // namespace diptych::core
