@@ -41,8 +41,8 @@ core::BenchSettings settings_of(const BenchOptions& options) {
         throw SettingError("bench: there are no integrators");
     }
     if (options.spp < 1 || options.spp > most_spp || options.frames < least_frames || options.frames > most_frames) {
-        throw SettingError(fmt::format("bench: spp is {} and frames {}; they have to be 1 to {} and {} to {}", options.spp,
-                                       options.frames, most_spp, least_frames, most_frames));
+        throw SettingError(fmt::format("bench: spp is {} and frames {}; they have to be 1 to {} and {} to {}",
+                                       options.spp, options.frames, most_spp, least_frames, most_frames));
     }
     core::BenchSettings settings;
     for (const Integrator integrator : options.integrators) {

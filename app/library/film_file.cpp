@@ -77,11 +77,11 @@ core::Metadata metadata_of(const FilmData& data, bool sums) {
     core::SampleRanges samples;
     for (const FilmSamples& each : data.samples) {
         if (sums && each.seed != data.samples.front().seed) {
-            throw Error(fmt::format("{}: has samples of seeds {} and {}, and sums in a file are of one seed; save the films "
-                                    "before they are merged",
+            throw Error(fmt::format("{}: has samples of seeds {} and {}, and sums in a file are of one seed; save the "
+                                    "films before they are merged",
                                     data.name(), data.samples.front().seed, each.seed));
         }
-        if (each.seed == data.samples.front().seed) {
+        if (each.seed == data.samples.front().seed && !data.chained()) {
             samples.add(each.part.samples);
         }
     }

@@ -42,6 +42,8 @@ struct SceneData {
     core::Scene& own_content();
 };
 
+core::RenderSettings to_core(const Settings& settings);
+
 /// What a film of this process shows.
 struct FilmOrigin {
     std::uint64_t revision = 0;  // of the scene
@@ -63,9 +65,9 @@ struct FilmData {
     core::LayeredImage developed;
 
     std::string name() const { return info.file.empty() ? "film" : info.file; }
+    /// Whether its samples go on from one another.
+    bool chained() const { return info.backend != Backend::oracle && core::chains_frames(to_core(info.settings)); }
 };
-
-core::RenderSettings to_core(const Settings& settings);
 
 struct SessionData {
     std::shared_ptr<SceneData> scene;

@@ -87,8 +87,9 @@ Verdict verify(const Scene& scene, const VerifyOptions& options) {
         std::mutex mutex;  // sides on different backends render at the same time
         std::uint32_t begun = 0;
         const std::optional<core::SuiteResult> suite =
-            core::run_suite(settings, {*content, request, open_measured}, {{to_core(options.a), to_core(options.b), {}}},
-                            options.settings.seed, stop.flag(), [&](const core::SideName&, std::uint32_t) {
+            core::run_suite(settings, {*content, request, open_measured},
+                            {{to_core(options.a), to_core(options.b), {}}}, options.settings.seed, stop.flag(),
+                            [&](const core::SideName&, std::uint32_t) {
                                 if (options.progress) {
                                     const std::lock_guard lock(mutex);
                                     options.progress(begun++, 2 * options.runs);

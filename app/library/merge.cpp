@@ -54,12 +54,13 @@ void require_new_samples(const FilmData& part, const FilmData& whole) {
             if (a.seed != b.seed) {
                 continue;
             }
-            if (a.part.samples.empty() && b.part.samples.empty()) {
+            const bool both_rendered = part.origin && whole.origin;
+            if (part.chained() && !both_rendered) {  // of which files tell no ranges
                 throw Error(fmt::format("{}: its samples go on from one another, and {} has some of the same seed {}",
                                         a.part.name, b.part.name, a.seed));
             }
-            const bool both_rendered = part.origin && whole.origin;
-            core::require_other_samples(a.part, {both_rendered ? "the film it is merged into" : b.part.name, b.part.samples});
+            const std::string other = both_rendered ? "the film it is merged into" : b.part.name;
+            core::require_other_samples(a.part, {other, b.part.samples});
         }
     }
 }
@@ -68,7 +69,8 @@ void require_new_samples(const FilmData& part, const FilmData& whole) {
 
 void require_sums(const FilmData& data) {
     if (data.film.pixels.empty()) {
-        throw Error(data.name() + ": is a picture without the sums of its samples, and cannot be merged or gone on from");
+        throw Error(data.name() +
+                    ": is a picture without the sums of its samples, and cannot be merged or gone on from");
     }
     core::require_whole_samples(data.name(), data.metadata);
 }

@@ -246,8 +246,8 @@ void Session::resume(const Film& film) {
         core::SampleRanges samples;
         for (const FilmSamples& each : base->samples) {
             if (each.seed != d.settings.seed) {
-                throw Error(fmt::format("{}: has samples of seed {} too, and the session's are of seed {}", base->name(),
-                                        each.seed, d.settings.seed));
+                throw Error(fmt::format("{}: has samples of seed {} too, and the session's are of seed {}",
+                                        base->name(), each.seed, d.settings.seed));
             }
             samples.add(each.part.samples);
         }

@@ -20,8 +20,8 @@ struct ConvergeOptions {
     std::uint32_t runs = 16;      // of each method, each with a seed of its own; at least 2
     std::uint32_t spp_max = 256;  // samples a pixel of a run: the power of two that is not above it
     double seconds = 0;           // above 0, instead: the power of two that a method renders in so long
-    /// What errors are measured against: a method, "auto", or a picture's file. A method renders 16 times the samples of
-    /// a run. "auto" is `path`, on a backend for which it is not measured, or with the other MIS weights.
+    /// What errors are measured against: a method, "auto", or a picture's file. A method renders 16 times the samples
+    /// of a run. "auto" is `path`, on a backend for which it is not measured, or with the other MIS weights.
     std::string reference = "auto";
     std::optional<Film> reference_film;  // instead
     double target_relmse = 0;            // that times are told to; 0 is what half of the methods reach
@@ -41,7 +41,8 @@ struct Estimate {
     double high = 0;
 };
 
-/// An estimate of the squared bias whose expectation is that bias: about 0 where there is none, and then often negative.
+/// An estimate of the squared bias whose expectation is that bias. Without bias it scatters about 0, and is often
+/// negative.
 struct BiasEstimate {
     double value = 0;
     double standard_error = 0;

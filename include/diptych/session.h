@@ -78,9 +78,9 @@ public:
     Film film() const;
 
     /// Goes on from a film of this very picture, of this process or of a file: it has those samples from then on, and
-    /// the next ones follow them, to the bits of a session that took them all. The panels may differ. Throws Error where
-    /// the film is of another picture or seed, has no sums, or where this picture has samples already; SettingError for
-    /// restir with temporal reuse, whose samples go on from one another.
+    /// the next ones follow them, to the bits of a session that took them all. The panels may differ. Throws Error
+    /// where the film is of another picture or seed, has no sums, or where this picture has samples already;
+    /// SettingError for restir with temporal reuse, whose samples go on from one another.
     void resume(const Film& film);
 
     /// Empties the film, with another seed where one is given. What follows has the bits of a new session.

@@ -9,10 +9,10 @@ namespace diptych::python {
 namespace {
 
 constexpr const char* load_doc =
-    "A film from a file. One that was saved with sums=True, or by the program with its sums, comes back to the bit: it\n"
-    "merges, and a session goes on from it. Any other picture (.exr, .hdr, .png and more) is its radiance, with the\n"
-    "standard error and the layers that an .exr has. memory_limit: bytes that the file may ask for; 0 is a quarter of\n"
-    "the memory.\n\n"
+    "A film from a file. One that was saved with sums=True, or by the program with its sums, comes back to the bit:\n"
+    "it merges, and a session goes on from it. Any other picture (.exr, .hdr, .png and more) is its radiance, with\n"
+    "the standard error and the layers that an .exr has. memory_limit: bytes that the file may ask for; 0 is a\n"
+    "quarter of the memory.\n\n"
     ">>> import diptych as dp, tempfile\n"
     ">>> scene = dp.Scene()\n"
     ">>> scene.environment.scale = (0.5, 0.5, 0.5)\n"
@@ -115,7 +115,8 @@ void bind_film(py::module_& module) {
                 return Film::load(name, memory_limit);
             },
             py::arg("path"), py::arg("memory_limit") = 0, load_doc)
-        .def_property_readonly("file", info(&FilmInfo::file), "That it was loaded from; empty for one that was rendered.")
+        .def_property_readonly("file", info(&FilmInfo::file),
+                               "That it was loaded from; empty for one that was rendered.")
         .def_property_readonly("width", &Film::width, "Pixels.")
         .def_property_readonly("height", &Film::height, "Pixels.")
         .def_property_readonly("scene", info(&FilmInfo::scene), "The scene's name.")

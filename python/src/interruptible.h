@@ -1,4 +1,5 @@
-// Long calls of the library: other threads of Python run meanwhile, Ctrl-C ends them, and so does what a callback raises.
+// Long calls of the library: other threads of Python run meanwhile. Ctrl-C ends such a call, and so does what its
+// callback raises.
 #pragma once
 
 #include <chrono>

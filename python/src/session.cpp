@@ -63,11 +63,12 @@ void bind_session(py::module_& module) {
             "film", [](S& self) { return self.work([](Session& session) { return session.film(); }); },
             "A copy of what has been rendered.")
         .def(
-            "resume", [](S& self, const Film& film) { self.work([&](Session& session) { return session.resume(film), 0; }); },
+            "resume",
+            [](S& self, const Film& film) { self.work([&](Session& session) { return session.resume(film), 0; }); },
             py::arg("film"),
-            "Goes on from a film of this very picture, rendered or loaded: the session has its samples from then on, and\n"
-            "the next ones follow them, to the bits of a session that took them all. Raises Error where the film is of\n"
-            "another picture or seed, or has no sums.")
+            "Goes on from a film of this very picture, rendered or loaded: the session has its samples from then on,\n"
+            "and the next ones follow them, to the bits of a session that took them all. Raises Error where the film\n"
+            "is of another picture or seed, or has no sums.")
         .def(
             "restart",
             [](S& self, std::optional<std::uint32_t> seed) {

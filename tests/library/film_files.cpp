@@ -123,6 +123,20 @@ TEST_CASE("Films of several seeds add up, and their sums stay out of files") {
     CHECK(dp::Film::load(folder.file("c.exr")).info().spp == 8);
 }
 
+TEST_CASE("Films of restir in files add up where their seeds differ, and are refused where they do not") {
+    const Folder folder;
+    dp::Settings settings = small_settings(dp::Integrator::restir);
+    const dp::Film film = part_of(small_scene(), 0, 3, settings);
+    film.save(folder.file("a.exr"), {.sums = true});
+    dp::Film again = dp::Film::load(folder.file("a.exr"));
+    CHECK(same_bits(again, film));
+    CHECK(message_of([&] { again.merge(film); }) == "film: its samples go on from one another, and " +
+                                                        folder.file("a.exr") + " has some of the same seed 0");
+    settings.seed = 1;
+    again.merge(part_of(small_scene(), 0, 3, settings));
+    CHECK(again.info().spp == 6);
+}
+
 TEST_CASE("A picture without sums is its layers, and says that it cannot merge") {
     const Folder folder;
     const dp::Film film = part_of(small_scene(), 0, 4);
@@ -201,8 +215,9 @@ TEST_CASE("Parts that the program renders and parts of the library are parts of 
     CHECK(same_bits(film, whole));
     CHECK(film.info().settings.size == std::array{24, 16});
 
-    const std::string merge = std::string(DIPTYCH_PROGRAM) + " merge " + folder.file("program.exr") + " " +
-                              folder.file("library.exr") + " --sums -o " + folder.file("merged.exr") + " >/dev/null 2>&1";
+    const std::string parts = folder.file("program.exr") + " " + folder.file("library.exr");
+    const std::string merge =
+        DIPTYCH_PROGRAM " merge " + parts + " --sums -o " + folder.file("merged.exr") + " >/dev/null 2>&1";
     REQUIRE(std::system(merge.c_str()) == 0);
     CHECK(same_bits(dp::Film::load(folder.file("merged.exr")), whole));
 

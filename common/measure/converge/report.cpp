@@ -173,7 +173,8 @@ std::string summary_to_csv(const ConvergeSummary& summary) {
             for (const SummaryColumn& column : summary_columns()) {
                 const double value = column.value(point);
                 const bool counts = value == std::floor(value) && value < 1e15;  // written as they are
-                text += !std::isfinite(value) ? "," : counts ? fmt::format(",{:.0f}", value) : fmt::format(",{:.9g}", value);
+                const std::string figure = counts ? fmt::format("{:.0f}", value) : fmt::format("{:.9g}", value);
+                text += "," + (std::isfinite(value) ? figure : "");
             }
             text += "\n";
         }
@@ -183,8 +184,8 @@ std::string summary_to_csv(const ConvergeSummary& summary) {
 
 std::string summary_table(const ReportHead& head, const ConvergeSummary& summary, const ReferencePicture& reference) {
     const RenderSettings& settings = head.request.settings;
-    std::string text = fmt::format("{} at {}x{}, {} runs per method; reference: {}{}\n", head.request.scene, settings.width,
-                                   settings.height, head.settings.runs, reference.method,
+    std::string text = fmt::format("{} at {}x{}, {} runs per method; reference: {}{}\n", head.request.scene,
+                                   settings.width, settings.height, head.settings.runs, reference.method,
                                    reference.spp > 0 ? fmt::format(", {} spp", reference.spp) : "");
     text += fmt::format("{:<26} {:>8} {:>9} {:>10} {:>7} {:>15} {:>13}  bias\n", "method", "spp", "time", "relMSE",
                         "slope", "95 %", fmt::format("to {:.2g}", summary.target_relmse));
@@ -193,8 +194,8 @@ std::string summary_table(const ReportHead& head, const ConvergeSummary& summary
         const char* mark = method.to_target.kind == TargetTime::Kind::earlier ? "<"
                            : method.to_target.kind == TargetTime::Kind::later ? ">"
                                                                               : "";
-        text += fmt::format("{:<26} {:>8} {:>9} {:>10.3g} {:>7.3f} {:>15} {:>13}  {}{}\n", method.method->name, last.spp,
-                            time_text(last.device_seconds), last.relmse_net, method.slope_mse.value,
+        text += fmt::format("{:<26} {:>8} {:>9} {:>10.3g} {:>7.3f} {:>15} {:>13}  {}{}\n", method.method->name,
+                            last.spp, time_text(last.device_seconds), last.relmse_net, method.slope_mse.value,
                             fmt::format("[{:.3f}, {:.3f}]", method.slope_mse.low, method.slope_mse.high),
                             mark + time_text(method.to_target.seconds), method.bias_text,
                             last.nonfinite > 0 ? fmt::format("; {} samples were not finite", last.nonfinite) : "");
