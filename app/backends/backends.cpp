@@ -1,5 +1,7 @@
 #include "backends/backends.h"
 
+#include <algorithm>
+
 #include "backend/cpu_renderer.h"
 #include "error.h"
 #include "oracle_renderer/oracle_renderer.h"
@@ -88,6 +90,23 @@ std::vector<std::string> usable_devices() {
     }
 #endif
     return names;
+}
+
+std::string device_in_turn([[maybe_unused]] int local_rank) {
+    std::vector<std::size_t> devices;
+#if DIPTYCH_VULKAN
+    const std::vector<VulkanDeviceInfo> infos = list_vulkan_devices();
+    if (std::none_of(infos.begin(), infos.end(), [](const VulkanDeviceInfo& info) { return info.usable; })) {
+        return "";
+    }
+    const std::string& type = infos[choose_device_index(infos, "")].type;
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+        if (infos[i].usable && infos[i].type == type) {
+            devices.push_back(i);
+        }
+    }
+#endif
+    return devices.empty() ? "" : std::to_string(devices[static_cast<std::size_t>(local_rank) % devices.size()]);
 }
 
 std::uint64_t close_devices() {

@@ -27,6 +27,10 @@ MakeRenderer renderer_maker(const RenderRequest& request);
 /// Names of the Vulkan devices that can render, in Vulkan's order.
 std::vector<std::string> usable_devices();
 
+/// RenderRequest::device for one of several processes on this machine: they take turns among its Vulkan devices of the
+/// best kind. Empty where there is none.
+std::string device_in_turn(int local_rank);
+
 /// Closes the Vulkan device that is kept open between renderers, once none of them uses it, and returns how many
 /// messages the validation layer had in all.
 std::uint64_t close_devices();

@@ -5,11 +5,13 @@
 #include <new>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "session/make_renderer.h"
 #include "commands/arguments/typed_text.h"
 #include "commands/command.h"
+#include "commands/render/rank_run.h"
 #include "error.h"
 #include "commands/program.h"
 #include "console/output.h"
@@ -100,6 +102,9 @@ int run_and_report_errors(int argc, char** argv) {
 }  // namespace
 
 int run_program(int argc, char** argv) {
+    if (argc > 1 && std::string_view(argv[1]) == "render" && is_silent_rank()) {
+        silence_output();
+    }
     const int code = run_and_report_errors(argc, argv);
     const std::string reason = reason_of_loss();
     if (reason.empty()) {

@@ -1,5 +1,6 @@
 #include "console/output.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 
@@ -15,6 +16,7 @@ namespace {
 constexpr int message_patience_milliseconds = 100;
 constexpr int no_limit = -1;
 
+std::atomic<bool> silent = false;
 int loss = 0;  // an errno: of the first result that was lost
 
 /// False where the stream stays full for so long. It can be set not to block by another process that has it too.
@@ -26,7 +28,7 @@ bool await_space(int stream, int milliseconds) {
 
 /// 0, or the errno of what went wrong.
 int write_all(int stream, std::string_view text, int patience) {
-    while (!text.empty()) {
+    while (!silent && !text.empty()) {
         const ssize_t written = ::write(stream, text.data(), text.size());
         if (written >= 0) {
             text.remove_prefix(static_cast<std::size_t>(written));
@@ -57,7 +59,11 @@ void write_result(std::string_view text) {
 }
 
 void write_data(std::string_view text) {
-    note_loss(stdout_was_closed() ? EBADF : write_all(STDOUT_FILENO, text, no_limit));
+    note_loss(stdout_was_closed() && !silent ? EBADF : write_all(STDOUT_FILENO, text, no_limit));
+}
+
+void silence_output() {
+    silent = true;
 }
 
 std::string reason_of_loss() {

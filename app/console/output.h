@@ -23,6 +23,9 @@ void write_result(std::string_view text);
 /// A result for a program, on stdout: lost wherever it cannot be written.
 void write_data(std::string_view text);
 
+/// From now on nothing is written: the process is one of several, and another one speaks for all.
+void silence_output();
+
 /// Why results or data were lost; empty where none were.
 std::string reason_of_loss();
 

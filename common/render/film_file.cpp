@@ -22,9 +22,15 @@ std::string entry(const Metadata& metadata, const std::string& name) {
 /// Entries that say how a film came to be, or how it is shown. A scene is known by its fingerprint, not by its place.
 const std::set<std::string>& idle_entries() {
     static const std::set<std::string> names = {"command", "scene",   "env",      "device",   "backend",     "spp",
-                                                "samples", "seconds", "rays",     "nonfinite", "interrupted", "uneven", "look_at",
+                                                "samples", "seconds", "rays",     "nonfinite", "interrupted", "uneven", "uneven_from",
+                                                "look_at",
                                                 "exposure", "tonemap", "generic", "fingerprint"};
     return names;
+}
+
+/// A number of samples matters to the Hammersley set alone.
+bool is_idle(const std::string& name, const Metadata& metadata) {
+    return idle_entries().count(name) > 0 || (name == "sample_count" && entry(metadata, "sampler") != "hammersley");
 }
 
 }  // namespace
@@ -59,12 +65,9 @@ std::string picture_difference(const Metadata& a, const Metadata& b) {
         }
     }
     for (const std::string& name : names) {
-        // A number of samples that only the Hammersley set depends on.
-        const bool idle = idle_entries().count(name) > 0 ||
-                          (name == "sample_count" && entry(a, "sampler") != "hammersley");
         const std::string value_a = entry(a, name);
         const std::string value_b = entry(b, name);
-        if (!idle && value_a != value_b) {
+        if (!is_idle(name, a) && value_a != value_b) {
             const auto shown = [](const std::string& value) { return value.empty() ? "not set" : value; };
             return fmt::format("{} is {} and {}", name, shown(value_a), shown(value_b));
         }
@@ -73,6 +76,16 @@ std::string picture_difference(const Metadata& a, const Metadata& b) {
         return "the scene's content, its camera or its sky differs";
     }
     return "";
+}
+
+std::string picture_identity(const Metadata& metadata) {
+    std::string identity = entry(metadata, "backend") == "oracle" ? "oracle" : "panel";
+    for (const auto& [name, value] : metadata) {
+        if (name == "fingerprint" || (!is_idle(name, metadata) && !value.empty())) {
+            identity += "\n" + name + " " + value;
+        }
+    }
+    return identity;
 }
 
 }  // namespace diptych::core

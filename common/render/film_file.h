@@ -28,4 +28,7 @@ std::optional<FilmFile> read_film(const std::filesystem::path& path);
 /// neither is the panel: both take the same samples.
 std::string picture_difference(const Metadata& a, const Metadata& b);
 
+/// All that picture_difference compares, as a text that is the same where there is no difference.
+std::string picture_identity(const std::map<std::string, std::string>& metadata);
+
 }  // namespace diptych::core

@@ -1,6 +1,7 @@
 #include "render/merge_films.h"
 
 #include "error.h"
+#include "threads.h"
 
 namespace diptych::core {
 
@@ -52,17 +53,24 @@ void merge_films(const Film& from, Film& into) {
         from.first_hits.size() != into.first_hits.size()) {
         throw Error("films of different sizes or layers cannot be merged");
     }
-    for (std::size_t i = 0; i < into.pixels.size(); ++i) {
-        merge(from.pixels[i], into.pixels[i]);
-    }
-    for (std::size_t i = 0; i < into.moments.size(); ++i) {
-        merge(from.moments[i].squares, into.moments[i].squares);
-    }
-    for (std::size_t i = 0; i < into.first_hits.size(); ++i) {
-        merge(from.first_hits[i].albedo, into.first_hits[i].albedo);
-        merge(from.first_hits[i].normal, into.first_hits[i].normal);
-        merge(from.first_hits[i].depth, into.first_hits[i].depth);
-    }
+    merge_pixels(from, 0, into);
+}
+
+void merge_pixels(const Film& from, std::size_t first, Film& into) {
+    in_parts(from.pixels.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            merge(from.pixels[i], into.pixels[first + i]);
+            if (!into.moments.empty()) {
+                merge(from.moments[i].squares, into.moments[first + i].squares);
+            }
+            if (!into.first_hits.empty()) {
+                const shared::FilmFirstHit& hit = from.first_hits[i];
+                merge(hit.albedo, into.first_hits[first + i].albedo);
+                merge(hit.normal, into.first_hits[first + i].normal);
+                merge(hit.depth, into.first_hits[first + i].depth);
+            }
+        }
+    });
 }
 
 }  // namespace diptych::core

@@ -9,4 +9,7 @@ namespace diptych::core {
 /// make no difference. Throws Error where size or layers differ.
 void merge_films(const Film& from, Film& into);
 
+/// The same for some pixels, `first` and those after it; size and layers fit.
+void merge_pixels(const Film& from, std::size_t first, Film& into);
+
 }  // namespace diptych::core

@@ -94,6 +94,7 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
     add("tonemap", request.tonemap);
     add("interrupted", yes_or_no(outcome.interrupted));
     add("uneven", yes_or_no(outcome.uneven));
+    add("uneven_from", outcome.uneven ? fmt::format("{}", outcome.uneven_from) : "");
     add("look_at", outcome.look_at > 0 ? fmt::format("{}", outcome.look_at) : "");
     add("seconds", outcome.seconds);
     add("rays", outcome.rays);

@@ -28,6 +28,7 @@ struct RenderOutcome {
     bool interrupted = false;
     std::uint64_t look_at = 0;  // ProgressiveResult's
     bool uneven = false;  // cut short within a sample: some pixels have more than `spp`
+    std::uint64_t uneven_from = 0;  // the first sample that only some pixels have
     double seconds = 0;
     std::uint64_t rays = 0;
     std::uint64_t nonfinite = 0;

@@ -94,6 +94,21 @@ SampleRanges SampleRanges::gaps() const {
     return gaps;
 }
 
+SampleRanges SampleRanges::without(const SampleRanges& other) const {
+    SampleRanges left;
+    for (SampleRange range : ranges_) {
+        for (const SampleRange& taken : other.ranges_) {
+            if (taken.end <= range.first || taken.first >= range.end) {
+                continue;
+            }
+            left.add({range.first, std::max(range.first, taken.first)});
+            range.first = std::min(range.end, taken.end);
+        }
+        left.add(range);
+    }
+    return left;
+}
+
 void SampleRanges::add(const SampleRange& range) {
     if (range.first >= range.end) {
         return;

@@ -42,6 +42,9 @@ public:
     /// The samples between the first and the last that are not there.
     SampleRanges gaps() const;
 
+    /// The samples that `other` does not have.
+    SampleRanges without(const SampleRanges& other) const;
+
     /// Adds samples that are not there yet; an empty range adds nothing.
     void add(const SampleRange& range);
     void add(const SampleRanges& other);

@@ -24,6 +24,13 @@ struct WorkFiles {
 /// "out.part.exr" for "out.png": where unfinished work goes.
 std::string part_path(const std::string& output);
 
+/// Where a rank of several leaves its share of the samples that belong into `path`: "out.rank2.part.exr" for "out.exr"
+/// and "out.part.exr".
+std::string rank_part_path(const std::string& path, int rank);
+
+/// The files of ranks, of earlier runs or of this one, that belong to `path`.
+std::vector<std::string> rank_parts(const std::string& path);
+
 /// Samples per pixel that a picture's metadata tell; 0 where the file is missing or does not tell.
 std::uint64_t samples_in(const std::string& path);
 
@@ -32,33 +39,39 @@ void refuse_to_lose(const RenderRequest& request, const WorkFiles& files);
 
 /// Samples to go on from.
 struct KeptWork {
-    std::string path;  // where they were; empty where there are none
-    Film film;         // every pixel with the same samples
-    std::uint32_t spp = 0;
+    std::vector<std::string> paths;  // where they were; empty where there are none
+    Film film;                       // every pixel with the same samples
+    SampleRanges samples;
+    std::uint32_t spp = 0;  // their number
     double seconds = 0;
     std::uint64_t look_at = 0;  // ProgressiveTarget's; 0 where it is not known
 };
 
-/// Samples of this picture that `files` or the part beside the output hold; the most that one file has. Where a run was
-/// cut short within a sample, the session takes that sample of the pixels that lack it. `metadata` are those that the
-/// picture will have. Throws Error where a file holds another picture, or more than is asked for.
+/// Samples of this picture that `files`, the part beside the output, or parts of ranks beside these hold: files without
+/// samples in common, those with the most samples first. Where a run was cut short within a sample, the session takes
+/// that sample of the pixels that lack it. `metadata` are those that the picture will have. Throws Error where a file
+/// holds another picture, or more than is asked for.
 KeptWork find_kept_work(Session& session, const RenderRequest& request, const WorkFiles& files,
                         const std::map<std::string, std::string>& metadata);
 
 /// Writes films in the background.
 class Checkpoints {
 public:
-    /// `write` may be called from another thread, one call at a time.
-    Checkpoints(double every, std::function<void(const Film&)> write);
+    explicit Checkpoints(double every);
     ~Checkpoints();
 
-    /// Writes a copy of the film if it is time and the one before has been written.
-    void offer(const Film& film);
+    /// Whether it is time, and the one before has been written.
+    bool due() const;
+
+    /// Calls `write` in a thread of its own.
+    void begin(std::function<void()> write);
+
+    /// Waits for the one that is being written.
+    void finish();
 
 private:
     double every_;
     double next_;
-    std::function<void(const Film&)> write_;
     std::future<void> writing_;
 };
 

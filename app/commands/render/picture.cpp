@@ -1,23 +1,21 @@
 #include "commands/render/picture.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "commands/render/live_view.h"
+#include "commands/render/picture_json.h"
 #include "commands/render/picture_work.h"
 #include "console/exit_codes.h"
 #include "console/interrupt.h"
 #include "console/output.h"
 #include "console/progress_line.h"
-#include "console/repeat_command.h"
 #include "console/report.h"
 #include "error.h"
-#include "pack/features.h"
-#include "render/film_statistics.h"
 #include "render/lasting_picture.h"
-#include "settings/names.h"
 
 namespace diptych::core::app {
 
@@ -27,49 +25,6 @@ namespace {
 /// where the render was interrupted.
 double last_show_seconds(const ProgressiveResult& result) {
     return result.interrupted ? 0 : std::min(result.seconds / 20, 10.0);
-}
-
-nlohmann::ordered_json json_of(const RenderRequest& request, const RenderOutcome& outcome, const SavedPicture& saved,
-                               const Renderer& renderer, const Film& film, std::uint32_t features) {
-    const RendererCosts costs = renderer.costs();
-    const FilmTotals totals = film_totals(film);
-    const std::optional<double> relmse = estimated_relmse(film);
-    const double seconds = std::max(outcome.seconds, 1e-12);
-    nlohmann::ordered_json json;
-    json["backend"] = renderer.backend();
-    json["device"] = outcome.device;
-    if (request.backend == "oracle") {
-        json["oracle_mode"] = request.oracle_mode;
-    } else {
-        json["integrator"] = name_of(request.settings.integrator);
-    }
-    json["width"] = request.settings.width;
-    json["height"] = request.settings.height;
-    json["spp"] = outcome.spp;
-    json["seconds"] = outcome.seconds;
-    json["rays"] = outcome.rays;
-    json["nonfinite"] = outcome.nonfinite;
-    json["output"] = saved.path;
-    json["fell_back"] = saved.fell_back;
-    json["interrupted"] = outcome.interrupted;
-    json["build_seconds"] = costs.build_seconds;
-    json["compile_seconds"] = costs.compile_seconds;
-    json["bytes"] = costs.bytes;
-    json["features"] = feature_names(features);
-    json["samples_per_second"] = static_cast<double>(totals.samples + totals.nonfinite) / seconds;
-    json["rays_per_second"] = static_cast<double>(outcome.rays) / seconds;
-    json["correlated"] = request.backend != "oracle" && request.settings.integrator == Integrator::restir;
-    json["estimated_relmse"] = relmse ? nlohmann::ordered_json(*relmse) : nlohmann::ordered_json();
-    if (request.target_error > 0) {
-        json["target_error"] = request.target_error;
-        json["target_met"] = relmse && *relmse <= request.target_error;
-    }
-    if (request.frames > 0) {
-        json["frame"] = request.frame;
-        json["time"] = shown_at(request);
-    }
-    json["command"] = repeat_command(request, outcome.spp);
-    return json;
 }
 
 /// Seconds of the device, in all and by pass, since a renderer was as it was here.
@@ -91,6 +46,22 @@ private:
     std::vector<PassTime> passes_;
 };
 
+/// Renders the samples that are missing between those that ranks of an earlier run have left. Returns whether it was
+/// interrupted within `result`.
+bool fill_gaps(PictureWork& work, Session& session, const std::atomic<bool>& cancel, const ProgressiveHooks& hooks,
+               ProgressiveResult& result) {
+    while (work.has_gap() && !cancel) {
+        result = render_progressively(session, *work.target(), cancel, hooks);
+        if (result.interrupted) {
+            return true;
+        }
+        work.keep(session.film(), result);
+        session.restart(session.settings().seed);
+        result = {};
+    }
+    return false;
+}
+
 }  // namespace
 
 int picture_exit_code(const Picture& picture) {
@@ -106,37 +77,38 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
     PictureWork work(session, request, files);
     work.find_kept();
     if (work.kept().spp > 0 && !audience.quiet) {
-        print_note("{}: going on from its {} samples per pixel\n", work.kept().path, work.kept().spp);
+        print_note("{}: going on from its {} samples per pixel\n", fmt::join(work.kept().paths, ", "), work.kept().spp);
     }
+    Picture picture;
+    std::optional<ProgressLine> line(std::in_place, request.spp, audience.label);
+    ProgressiveResult result;
+    ProgressiveHooks hooks;
+    hooks.base = work.kept().spp > 0 ? &work.kept().film : nullptr;
+    hooks.progress = [&](const Progress& progress) {
+        line->show(progress);
+        result.seconds = progress.seconds;
+    };
+    const std::function<void(const Film&)> checkpoint = work.checkpoints();
+    if (checkpoint || audience.live != nullptr) {
+        hooks.film = [&](const Film& grown) {
+            if (checkpoint) {
+                checkpoint(grown);
+            }
+            if (audience.live != nullptr) {
+                audience.live->show(request.output, develop(grown).color, cancel);
+            }
+        };
+    }
+    const bool in_gap = fill_gaps(work, session, cancel, hooks, result);
     const std::optional<ProgressiveTarget> target = work.target();
     LastingPicture lasting(session, guard, cancel, begin, target ? target->first : 0);
     const bool can_be_lost = request.backend == "vulkan";
     Renderer& renderer = can_be_lost ? lasting : session.renderer();
     const DeviceSeconds device_seconds(renderer, session.renderer());
     const int losses_before = guard.losses();
-    Picture picture;
-    ProgressiveResult result;
     std::shared_ptr<const Film> kept_film;
     try {
-        ProgressLine line(request.spp, audience.label);
-        ProgressiveHooks hooks;
-        hooks.base = work.kept().spp > 0 ? &work.kept().film : nullptr;
-        hooks.progress = [&](const Progress& progress) {
-            line.show(progress);
-            result.seconds = progress.seconds;
-        };
-        const std::function<void(const Film&)> checkpoint = work.checkpoints();
-        if (checkpoint || audience.live != nullptr) {
-            hooks.film = [&](const Film& grown) {
-                if (checkpoint) {
-                    checkpoint(grown);
-                }
-                if (audience.live != nullptr) {
-                    audience.live->show(request.output, develop(grown).color, cancel);
-                }
-            };
-        }
-        if (target) {
+        if (target && !in_gap) {
             result = can_be_lost ? render_progressively(lasting, *target, cancel, hooks)
                                  : render_progressively(session, *target, cancel, hooks);
         }
@@ -145,9 +117,11 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
         kept_film = work.whole(std::make_shared<Film>(lasting.kept()));
         result.spp = lasting.kept_samples();
         result.interrupted = picture.lost = true;
+        line.reset();
         report_error(fmt::format("{}: {}; {} samples per pixel are saved, {} are lost", request.output, error.what(),
                                  work.kept().spp + lasting.kept_samples(), lasting.lost_samples()));
     }
+    line.reset();  // its last line stands before what follows
     const Film& film = *kept_film;
     const RenderOutcome outcome = work.outcome_of(result, film, renderer.device());
     picture.interrupted = result.interrupted;
@@ -173,10 +147,11 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
     if (can_be_lost) {
         picture.json["device_losses"] = guard.losses() - losses_before;
     }
+    picture.line = fmt::format("{}: {}x{}, {} spp in {:.2f} s on {}{}{}\n", saved.path, film.width, film.height,
+                               outcome.spp, outcome.seconds, outcome.device, outcome.interrupted ? ", interrupted" : "",
+                               outcome.interrupted && work.resumable() ? "; the same command goes on from it" : "");
     if (!audience.quiet) {
-        print_note("{}: {}x{}, {} spp in {:.2f} s on {}{}{}\n", saved.path, film.width, film.height, outcome.spp,
-                   outcome.seconds, outcome.device, outcome.interrupted ? ", interrupted" : "",
-                   outcome.interrupted && work.resumable() ? "; the same command goes on from it" : "");
+        write_note(picture.line);
     }
     return picture;
 }

@@ -15,6 +15,7 @@ namespace diptych::core::app {
 
 struct Picture {
     nlohmann::ordered_json json;
+    std::string line;  // about the file that was written
     bool saved = false;  // not where an interrupt came before the first sample
     bool interrupted = false;
     bool lost = false;       // the device, before the end

@@ -17,10 +17,13 @@
 #include "session/open_session.h"
 #include "settings/names.h"
 #include "commands/render/picture.h"
+#include "commands/render/rank_picture.h"
+#include "commands/render/rank_run.h"
 #include "commands/render/save_picture.h"
 #include "commands/render/sequence.h"
 #include "console/report.h"
 #include "pose/pose.h"
+#include "ranks/launcher.h"
 #include "session/input_files.h"
 #include "session/scene_setup.h"
 
@@ -49,7 +52,7 @@ that repeats the render. PNG is tone mapped; HDR is linear. Ctrl-C saves the sam
 SIGTERM, SIGHUP and SIGXCPU do so with 143, 129 and 152.
 An interrupted render leaves picture.part.exr beside its output, and the same command goes on from it, to the same
 bits. --samples renders a part of the samples, anywhere; 'diptych merge' puts parts together. A sequence skips frames
-that are finished.)";
+that are finished. 'mpirun -n N diptych render ...' divides the samples, or the frames of a sequence, among N processes.)";
 
 struct RenderOptions {
     RenderArguments arguments;
@@ -230,21 +233,63 @@ int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) 
     return picture_exit_code(picture);
 }
 
-int run_render(RenderOptions options) {
+/// What several processes cannot share.
+void refuse_on_ranks(const RenderOptions& options) {
+    const RenderRequest& request = options.arguments.request;
+    if (request.backend != "oracle" && chains_frames(request.settings)) {
+        throw Error("--integrator restir: with --temporal each sample builds on the one before, so several ranks cannot "
+                    "share them; give --no-temporal, or divide a sequence by --first-frame with --warm-up among jobs of "
+                    "one process");
+    }
+    if (request.target_error > 0) {
+        throw Error("--target-error: the error is judged by the film of all samples, which no rank has before the end; "
+                    "give --spp or --time");
+    }
+    if (!options.live.empty()) {
+        throw Error("--live: no rank has the film of all samples before the end; render in one process");
+    }
+}
+
+int run_still_on_ranks(RankRun& run, const RenderOptions& options, const Scene& scene) {
+    const RenderRequest& request = options.arguments.request;
+    if (moves(scene)) {
+        report_warning(
+            fmt::format("{}: its animations are not played and it is shown at rest; give --frames or --start",
+                        scene.name));
+    }
+    Session session = open_session(scene, request);
+    LossGuard guard(device_loss_policy(options.on_device_lost, true, request));
+    return render_picture_on_ranks(run, session, request, options.json, options.files, guard);
+}
+
+/// `run` is null where this process renders alone.
+int render_as_asked(RenderOptions options, RankRun* run) {
     check_render_options(options);
+    RenderRequest& request = options.arguments.request;
+    if (run != nullptr) {
+        refuse_on_ranks(options);
+        run->take_share(request);
+    }
     const std::unique_ptr<LiveView> live = options.live.empty() ? nullptr : std::make_unique<LiveView>(options.live);
     const Scene scene = prepare_scene(options.arguments);
-    if (options.arguments.request.frames > 0) {
-        report_clips(scene, options.arguments.request);
-        const RenderRequest& request = options.arguments.request;
+    if (request.frames > 0) {
+        report_clips(scene, request);
         return render_sequence(scene, request,
                                {.first_frame = options.first_frame,
                                 .files = options.files,
                                 .on_device_lost = device_loss_policy(options.on_device_lost, true, request),
                                 .json = options.json,
-                                .live = live.get()});
+                                .live = live.get(),
+                                .run = run});
     }
-    return run_still(options, scene, live.get());
+    return run != nullptr ? run_still_on_ranks(*run, options, scene) : run_still(options, scene, live.get());
+}
+
+int run_render(const RenderOptions& options) {
+    if (launcher().empty()) {
+        return render_as_asked(options, nullptr);
+    }
+    return RankRun::run([&](RankRun& run) { return render_as_asked(options, &run); });
 }
 
 }  // namespace

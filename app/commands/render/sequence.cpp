@@ -7,10 +7,12 @@
 
 #include "commands/command.h"
 #include "commands/render/picture.h"
+#include "commands/render/rank_run.h"
 #include "console/interrupt.h"
 #include "console/repeat_command.h"
 #include "error.h"
 #include "image/layered_image.h"
+#include "pack/fingerprint.h"
 #include "render/film_file.h"
 #include "render/metadata.h"
 #include "render/frames.h"
@@ -84,6 +86,47 @@ bool is_finished(const RenderRequest& frame) {
     return true;
 }
 
+/// Frames that stand alone, in an order that rank 0 gives. `render` returns the picture of a frame.
+int render_frames_on_ranks(RankRun& run, const SampleRanges& unfinished, const std::string& identity,
+                           const std::string& device, bool json, const std::function<Picture(std::uint32_t)>& render) {
+    Team& team = run.team();
+    if (run.leads()) {
+        Work work;
+        work.wanted = unfinished;
+        work.limits.most_units = 1;
+        work.merges = false;
+        work.unit = "frames";
+        work.picture = identity;
+        team.start(std::move(work));
+    }
+    team.ready({identity, device});
+    for (;;) {
+        const Order order = team.next();
+        if (order.kind == Order::Kind::render) {
+            const Picture picture = render(static_cast<std::uint32_t>(order.block.first));
+            if (picture.saved) {
+                run.report(picture.line, picture.json, picture_exit_code(picture));
+            }
+            continue;
+        }
+        int code = order.code;
+        if (order.kind == Order::Kind::stop) {
+            team.tell_saved(0);
+            code = run.leads() ? team.wait_for_saved().code : code;
+        }
+        if (run.leads()) {
+            RankRun::Results results = run.results();
+            std::sort(results.json.begin(), results.json.end(),
+                      [](const auto& a, const auto& b) { return a["frame"] < b["frame"]; });
+            if (json) {
+                print_json(results.json);
+            }
+            code = code == exit_done ? results.exit_code : code;
+        }
+        return code;
+    }
+}
+
 }  // namespace
 
 int render_sequence(const Scene& scene, const RenderRequest& request, const SequenceOptions& options) {
@@ -92,7 +135,8 @@ int render_sequence(const Scene& scene, const RenderRequest& request, const Sequ
     const bool chained = session.chained();
     const std::uint32_t first = options.first_frame;
     std::vector<bool> finished(request.frames);
-    for (std::uint32_t frame = first; frame < request.frames; ++frame) {
+    const bool decides = options.run == nullptr || options.run->leads();
+    for (std::uint32_t frame = decides ? first : request.frames; frame < request.frames; ++frame) {
         finished[frame] =
             !options.files.overwrite && is_finished(frame_request(request, request.warm_up + frame, chained, first));
     }
@@ -109,9 +153,31 @@ int render_sequence(const Scene& scene, const RenderRequest& request, const Sequ
                                    "begins that many frames earlier instead",
                                    start, next - 1));
     }
+    LossGuard guard(options.on_device_lost);
+    if (options.run != nullptr) {
+        SampleRanges unfinished_frames;
+        for (std::uint32_t frame = first; frame < request.frames; ++frame) {
+            unfinished_frames.add({frame, frame + (finished[frame] ? 0U : 1U)});
+        }
+        RenderOutcome outcome;
+        outcome.maker.program = program_version();
+        outcome.fingerprint = scene_fingerprint(session.packed());
+        const std::atomic<bool>& cancel = options.run->team().cancel();
+        return render_frames_on_ranks(
+            *options.run, unfinished_frames, picture_identity(render_metadata(request, outcome)),
+            session.renderer().device(), options.json, [&](std::uint32_t i) {
+                const RenderRequest frame = frame_request(request, i, false, first);
+                const auto show = [&] { session.show(moments.at(i), frame.settings.seed); };
+                guard.run(session, cancel, show);
+                Picture picture = render_picture(session, frame, cancel, {.label = "", .quiet = true, .live = nullptr},
+                                                 options.files, guard, show);
+                picture.json["pack_seconds"] = session.pack_seconds();
+                picture.json["move_seconds"] = session.move_seconds();
+                return picture;
+            });
+    }
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     InterruptGuard interrupt;
-    LossGuard guard(options.on_device_lost);
     const auto show = [&](std::uint32_t frame) {
         const std::uint32_t seed = frame_request(request, frame, chained, start).settings.seed;
         session.show(moments.at(frame), chained && frame > start ? std::nullopt : std::optional(seed));

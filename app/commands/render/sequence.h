@@ -12,6 +12,7 @@
 namespace diptych::core::app {
 
 class LiveView;
+class RankRun;
 
 /// The file of one frame: the last run of # in the name becomes its number, padded with zeros; without any, frame 7 of
 /// out.exr is out.0007.exr, unless there is only one.
@@ -23,6 +24,7 @@ struct SequenceOptions {
     DeviceLossPolicy on_device_lost;
     bool json = false;         // one list at the end, not a line for each picture
     LiveView* live = nullptr;  // is shown each picture
+    RankRun* run = nullptr;    // divides the frames, none of which goes on from another, among several processes
 };
 
 /// Renders frames options.first_frame .. request.frames - 1 with one renderer, moved from moment to moment. Frames that

@@ -1,0 +1,17 @@
+// What --json says of a picture.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "commands/render/save_picture.h"
+#include "render/film.h"
+#include "render/metadata.h"
+#include "render/renderer.h"
+#include "render/request.h"
+
+namespace diptych::core::app {
+
+nlohmann::ordered_json json_of(const RenderRequest& request, const RenderOutcome& outcome, const SavedPicture& saved,
+                               const Renderer& renderer, const Film& film, std::uint32_t features);
+
+}  // namespace diptych::core::app

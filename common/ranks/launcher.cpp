@@ -1,0 +1,65 @@
+#include "ranks/launcher.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "error.h"
+#include "ranks/mpi/entry.h"
+
+namespace diptych::core {
+
+namespace {
+
+constexpr const char* file_name = "libdiptych_mpi.so";
+
+int number_in(const char* variable) {
+    const char* const text = std::getenv(variable);
+    return text == nullptr ? 0 : std::atoi(text);
+}
+
+[[noreturn]] void fail(const std::string& reason) {
+    throw Error(launcher() + " started this process as one of several, but " + file_name +
+                ", which joins them, cannot be used: " + reason);
+}
+
+}  // namespace
+
+std::string launcher() {
+    if (number_in("OMPI_COMM_WORLD_SIZE") > 1) {
+        return "mpirun";
+    }
+    // A job step of one process, or a script under sbatch, renders alone.
+    if (std::getenv("PMIX_RANK") != nullptr && number_in("SLURM_STEP_NUM_TASKS") > 1) {
+        return "srun";
+    }
+    return number_in("PMI_SIZE") > 1 ? "mpiexec" : "";
+}
+
+std::unique_ptr<RankChannel> join_ranks() {
+    // Open MPI loads plugins that look for its symbols, so these are made visible to all.
+    void* const library = dlopen(file_name, RTLD_NOW | RTLD_GLOBAL);
+    if (library == nullptr) {
+        fail(std::string(dlerror()) + " (Debian has Open MPI in libopenmpi3; a build finds it in libopenmpi-dev)");
+    }
+    const auto entry = reinterpret_cast<RankLibraryEntry*>(dlsym(library, rank_library_entry));
+    if (entry == nullptr) {
+        fail("it is of another version");
+    }
+    std::unique_ptr<RankChannel> channel;
+    try {
+        channel.reset(entry(DIPTYCH_VERSION));
+    } catch (const std::runtime_error& error) {
+        fail(error.what());
+    }
+    if (channel == nullptr) {
+        fail("it belongs to another version than " DIPTYCH_VERSION);
+    }
+    if (channel->place().size == 1) {
+        fail("the launcher belongs to another MPI than Open MPI, or was built without PMIx");
+    }
+    return channel;
+}
+
+}  // namespace diptych::core
