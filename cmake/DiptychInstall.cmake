@@ -1,5 +1,6 @@
 # The shared library libdiptych.so, and what `cmake --install` and `cpack` make of the project.
-#   COMPONENT library: libdiptych.so, libdiptych_images.so. devel: headers, CMake package, pkg-config. program: diptych.
+#   COMPONENT library: libdiptych.so, libdiptych_images.so. devel: headers, CMake package, pkg-config. program: diptych,
+#   libdiptych_mpi.so.
 file(GLOB library_sources CONFIGURE_DEPENDS app/library/*.cpp)
 add_library(diptych_library SHARED ${library_sources})
 add_library(Diptych::diptych ALIAS diptych_library)
@@ -23,6 +24,9 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Diptych)
 install(TARGETS diptych_library EXPORT DiptychTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT devel)
 install(TARGETS diptych_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
+if(TARGET diptych_mpi)
+  install(TARGETS diptych_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+endif()
 install(DIRECTORY include/diptych ${CMAKE_CURRENT_BINARY_DIR}/include/diptych
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT devel FILES_MATCHING PATTERN *.h)
 include(CMakePackageConfigHelpers)
@@ -46,5 +50,5 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR})
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libvulkan1, mesa-vulkan-drivers")  # opened at run time
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libvulkan1, mesa-vulkan-drivers, openmpi-bin")  # opened at run time
 include(CPack)

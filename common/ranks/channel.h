@@ -18,9 +18,10 @@ struct Message {
 struct RankPlace {
     int rank = 0;
     int size = 1;
-    int local_rank = 0;       // among the ranks on its host
-    int sharing = 1;          // ranks on its host, itself included, that may use the same processors
-    std::string host;         // as a user knows it
+    int local_rank = 0;  // among the ranks on its host
+    int processors = 1;  // that its launcher has left to it
+    int sharing = 1;     // ranks on its host, itself included, that may run on one of these
+    std::string host;    // as a user knows it
 };
 
 /// Used by one thread at a time. Functions throw std::runtime_error with the reason.

@@ -76,11 +76,11 @@ void Coordinator::handle(const Message& message, double now) {
         }
         break;
     case Tell::lost:
-        lose(message.from, reader.text());
+        lose(message.from, ": " + reader.text());
         break;
     case Tell::gave_up:
         rank.retired = true;
-        lose(message.from, reader.text());
+        lose(message.from, ": " + reader.text());
         break;
     case Tell::interrupted:
         stop(reader.integer());
@@ -106,7 +106,7 @@ void Coordinator::handle(const Message& message, double now) {
 void Coordinator::lose(int rank, const std::string& how) {
     const bool was_merging = std::count(merging_.begin(), merging_.end(), rank) > 0;
     if (phase_ == Phase::finished || phase_ == Phase::stopping || phase_ == Phase::waiting) {
-        hooks_.warn(fmt::format("{}: {}", name(rank), how));
+        hooks_.warn(name(rank) + how);
         check_saved();
         return;
     }
@@ -119,7 +119,7 @@ void Coordinator::lose(int rank, const std::string& how) {
     } else {
         ledger_.drop(rank, safe);
     }
-    hooks_.warn(fmt::format("{}: {}; {} of its {} {} are on the disk, and the rest is rendered again", name(rank), how,
+    hooks_.warn(fmt::format("{}{}; {} of its {} {} are on the disk, and the rest is rendered again", name(rank), how,
                             safe.count(), had, work_.unit));
     if (was_merging && phase_ == Phase::merging) {
         for (const int other : merging_) {
@@ -215,7 +215,7 @@ void Coordinator::tick(double now) {
             other.gone = true;
             other.asks = false;
             saved_.anyone_died = true;
-            lose(rank, ended ? "has died" : fmt::format("has not answered for {:.0f} s", now - other.heard));
+            lose(rank, ended ? " has died" : fmt::format(" has not answered for {:.0f} s", now - other.heard));
         } else {
             hooks_.send(rank, Tell::alive, {});
         }

@@ -13,6 +13,7 @@ namespace diptych::core {
 namespace {
 
 constexpr const char* file_name = "libdiptych_mpi.so";
+constexpr const char* mpi_name = "libmpi.so.40";  // Open MPI's, of versions 4 and 5
 
 int number_in(const char* variable) {
     const char* const text = std::getenv(variable);
@@ -38,10 +39,13 @@ std::string launcher() {
 }
 
 std::unique_ptr<RankChannel> join_ranks() {
-    // Open MPI loads plugins that look for its symbols, so these are made visible to all.
-    void* const library = dlopen(file_name, RTLD_NOW | RTLD_GLOBAL);
+    // MPI's plugins and our library look for its symbols among those of the process.
+    if (dlopen(mpi_name, RTLD_NOW | RTLD_GLOBAL) == nullptr) {
+        fail(std::string(dlerror()) + "; Debian has it in the package openmpi-bin");
+    }
+    void* const library = dlopen(file_name, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) {
-        fail(std::string(dlerror()) + " (Debian has Open MPI in libopenmpi3; a build finds it in libopenmpi-dev)");
+        fail(std::string(dlerror()) + "; Diptych is built with it where the package libopenmpi-dev is installed");
     }
     const auto entry = reinterpret_cast<RankLibraryEntry*>(dlsym(library, rank_library_entry));
     if (entry == nullptr) {

@@ -69,6 +69,7 @@ struct Order {
         abandon,   // the merge `attempt`, because one of its ranks is gone
         finished,  // rank 0 alone: the picture is whole, or all ranks have saved their parts
         stop,      // save the part; `code` is the exit code
+        cut_off,   // rank 0 is out of reach: save the part, and leave
         end,       // leave with the exit code `code`; `alone` where ranks have died
     };
 

@@ -52,7 +52,7 @@ PostHooks Team::post_hooks() {
     hooks.broken = [this](const std::string& reason) {
         const std::lock_guard lock(mutex_);
         hooks_.warn(fmt::format("the other ranks cannot be reached: {}", reason));
-        on_order({.kind = Order::Kind::end, .code = exit_no_rank, .alone = true});
+        on_order({.kind = Order::Kind::cut_off, .code = exit_no_rank, .alone = true});
     };
     return hooks;
 }
@@ -62,8 +62,9 @@ void Team::tell(int to, Tell kind, std::vector<std::uint32_t> words) {
 }
 
 void Team::on_order(const Order& order) {
-    cancel_ = cancel_ || order.kind == Order::Kind::stop || order.kind == Order::Kind::end;
-    if (order.kind == Order::Kind::end) {
+    const bool leaves = order.kind == Order::Kind::cut_off || order.kind == Order::Kind::end;
+    cancel_ = cancel_ || order.kind == Order::Kind::stop || leaves;
+    if (leaves) {
         end_ = order;
     }
     orders_.push_back(order);
@@ -105,7 +106,7 @@ void Team::tick() {
         heard_ = HUGE_VAL;  // once
         hooks_.warn(fmt::format("rank {} on {}: rank 0 has not answered for {:.0f} s; what this rank has is saved",
                                 place().rank, place().host, Coordinator::longest_silence));
-        on_order({.kind = Order::Kind::end, .code = exit_no_rank, .alone = true});
+        on_order({.kind = Order::Kind::cut_off, .code = exit_no_rank, .alone = true});
     }
 }
 
@@ -186,12 +187,12 @@ Order Team::wait_for_end() {
         if (order.kind == Order::Kind::stop) {
             tell_saved(0);  // nothing more to save
         }
-        return order.kind == Order::Kind::end;
+        return order.kind == Order::Kind::end || order.kind == Order::Kind::cut_off;
     });
 }
 
 Order Team::wait_for_saved() {
-    return wait({}, [](const Order& order) { return order.kind == Order::Kind::finished || order.kind == Order::Kind::end; });
+    return wait({}, [](const Order& order) { return order.kind == Order::Kind::finished || order.kind == Order::Kind::cut_off; });
 }
 
 bool Team::send_film(int to, std::vector<std::uint32_t> words) {

@@ -241,10 +241,10 @@ int render_picture_on_ranks(RankRun& run, Session& session, const RenderRequest&
             team.tell_saved(share.save(seconds));
             return run.leads() ? picture->stopped(team.wait_for_saved().code) : exit_done;
         }
+        case Order::Kind::cut_off:
+            share.save(0);
+            return order.code;
         case Order::Kind::end:
-            if (order.alone) {  // rank 0 is out of reach
-                share.save(0);
-            }
             return order.code;
         case Order::Kind::abandon:
             order = team.next(waiting);

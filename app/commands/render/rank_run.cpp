@@ -15,7 +15,6 @@
 #include "console/report.h"
 #include "error.h"
 #include "ranks/launcher.h"
-#include "threads.h"
 
 namespace diptych::core::app {
 
@@ -77,7 +76,7 @@ void RankRun::take_share(RenderRequest& request) const {
     if (request.backend == "vulkan") {
         request.device = request.device.empty() ? device_in_turn(place.local_rank) : request.device;
     } else if (request.threads == 0) {
-        request.threads = std::max(1, static_cast<int>(machine_threads()) / place.sharing);
+        request.threads = std::max(1, place.processors / place.sharing);
     }
 }
 

@@ -86,6 +86,10 @@ bool is_finished(const RenderRequest& frame) {
     return true;
 }
 
+std::string frame_label(const RenderRequest& frame, std::uint32_t frames) {
+    return fmt::format("frame {}/{}  ", frame.frame + 1, frames);
+}
+
 /// Frames that stand alone, in an order that rank 0 gives. `render` returns the picture of a frame.
 int render_frames_on_ranks(RankRun& run, const SampleRanges& unfinished, const std::string& identity,
                            const std::string& device, bool json, const std::function<Picture(std::uint32_t)>& render) {
@@ -169,7 +173,8 @@ int render_sequence(const Scene& scene, const RenderRequest& request, const Sequ
                 const RenderRequest frame = frame_request(request, i, false, first);
                 const auto show = [&] { session.show(moments.at(i), frame.settings.seed); };
                 guard.run(session, cancel, show);
-                Picture picture = render_picture(session, frame, cancel, {.label = "", .quiet = true, .live = nullptr},
+                Picture picture = render_picture(session, frame, cancel,
+                                                 {.label = frame_label(frame, request.frames), .quiet = true, .live = nullptr},
                                                  options.files, guard, show);
                 picture.json["pack_seconds"] = session.pack_seconds();
                 picture.json["move_seconds"] = session.move_seconds();
@@ -212,9 +217,8 @@ int render_sequence(const Scene& scene, const RenderRequest& request, const Sequ
             exit_code = interrupt.requested() ? interrupt_exit_code() : exit_code;
             continue;
         }
-        const std::string label = fmt::format("frame {}/{}  ", frame.frame + 1, request.frames);
         Picture picture = render_picture(session, frame, interrupt.requested(),
-                                         {.label = label, .quiet = options.json, .live = options.live}, options.files,
+                                         {.label = frame_label(frame, request.frames), .quiet = options.json, .live = options.live}, options.files,
                                          guard, [&] { begin_anew(i); });
         if (picture.saved) {
             picture.json["pack_seconds"] = session.pack_seconds();

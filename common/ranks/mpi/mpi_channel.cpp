@@ -21,11 +21,15 @@ void check(int result) {
     }
 }
 
-/// How many ranks of a host may run on a processor that this one may run on.
-int count_sharing(MPI_Comm host, int local_size) {
+cpu_set_t own_processors() {
     cpu_set_t own;
     CPU_ZERO(&own);
     sched_getaffinity(0, sizeof(own), &own);
+    return own;
+}
+
+/// How many ranks of a host may run on one of these processors.
+int count_sharing(MPI_Comm host, int local_size, const cpu_set_t& own) {
     std::vector<cpu_set_t> all(static_cast<std::size_t>(local_size));
     check(MPI_Allgather(&own, sizeof(own), MPI_BYTE, all.data(), sizeof(own), MPI_BYTE, host));
     return static_cast<int>(std::count_if(all.begin(), all.end(), [&](const cpu_set_t& other) {
@@ -52,7 +56,9 @@ MpiChannel::MpiChannel() {
     int local_size = 0;
     check(MPI_Comm_rank(host, &place_.local_rank));
     check(MPI_Comm_size(host, &local_size));
-    place_.sharing = count_sharing(host, local_size);
+    const cpu_set_t own = own_processors();
+    place_.processors = std::max(1, CPU_COUNT(&own));
+    place_.sharing = count_sharing(host, local_size, own);
     check(MPI_Comm_free(&host));
     char name[256] = {};
     gethostname(name, sizeof(name) - 1);
