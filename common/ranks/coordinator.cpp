@@ -32,6 +32,9 @@ void Coordinator::start(Work work, double now) {
         phase_ = Phase::rendering;
         for (int rank = 0; rank < place_.size; ++rank) {
             check_picture(rank);
+            if (!at(rank).excuse.empty()) {
+                hooks_.warn(fmt::format("{}{}; the others render without it", name(rank), at(rank).excuse));
+            }
         }
     }
     answer(now);
@@ -105,7 +108,11 @@ void Coordinator::handle(const Message& message, double now) {
 /// What a rank had goes to the others, but for what it has written to the disk.
 void Coordinator::lose(int rank, const std::string& how) {
     const bool was_merging = std::count(merging_.begin(), merging_.end(), rank) > 0;
-    if (phase_ == Phase::finished || phase_ == Phase::stopping || phase_ == Phase::waiting) {
+    if (phase_ == Phase::waiting) {  // what ails all ranks, rank 0 says itself
+        at(rank).excuse = how;
+        return;
+    }
+    if (phase_ == Phase::finished || phase_ == Phase::stopping) {
         hooks_.warn(name(rank) + how);
         check_saved();
         return;
@@ -119,8 +126,10 @@ void Coordinator::lose(int rank, const std::string& how) {
     } else {
         ledger_.drop(rank, safe);
     }
-    hooks_.warn(fmt::format("{}{}; {} of its {} {} are on the disk, and the rest is rendered again", name(rank), how,
-                            safe.count(), had, work_.unit));
+    hooks_.warn(had == 0 && safe.empty()
+                    ? fmt::format("{}{}; the others render without it", name(rank), how)
+                    : fmt::format("{}{}; {} of its {} {} are on the disk, and the rest is rendered again", name(rank), how,
+                                  safe.count(), had, work_.unit));
     if (was_merging && phase_ == Phase::merging) {
         for (const int other : merging_) {
             at(other).merges = false;
@@ -151,7 +160,7 @@ void Coordinator::stop(int code) {
 }
 
 void Coordinator::check_saved() {
-    const bool all = std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& r) { return r.saved || r.gone; });
+    const bool all = std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& r) { return r.saved || r.gone || r.retired; });
     if (phase_ == Phase::stopping && all) {
         order(0, {.kind = Order::Kind::finished, .code = stop_code_});
     }

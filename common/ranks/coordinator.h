@@ -68,6 +68,7 @@ private:
         bool gone = false;     // has died
         bool retired = false;  // lives, but renders no more
         double heard = 0;
+        std::string excuse;  // why it gave up, before rank 0 was there to care
     };
     enum class Phase { waiting, rendering, merging, finished, stopping };
 

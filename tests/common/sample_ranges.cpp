@@ -30,6 +30,16 @@ TEST_CASE("samples that two have in common are found", "[render]") {
     CHECK(ranges.shared_with(SampleRanges({47, 60})) == SampleRange{47, 48});
 }
 
+TEST_CASE("what other ranges hold is taken away", "[render]") {
+    const SampleRanges ranges = SampleRanges::parse("0:16,32:48,60:61");
+    const auto left = [&](const char* taken) { return ranges.without(SampleRanges::parse(taken)).text(); };
+    CHECK(left("") == "0:16,32:48,60:61");
+    CHECK(left("0:100") == "");
+    CHECK(left("16:32,48:60") == "0:16,32:48,60:61");
+    CHECK(left("0:4,6:8,12:33,40:41") == "4:6,8:12,33:40,41:48,60:61");
+    CHECK(left("15:61") == "0:15");
+}
+
 TEST_CASE("text that is no range is refused", "[render]") {
     for (const char* text : {"", "5", "5:", ":5", "5:5", "6:5", "-1:5", "0:4294967296", "0x1:5", "1:2:3", "a:b", " 1:2"}) {
         CAPTURE(text);

@@ -147,6 +147,20 @@ TEST_CASE("A rank of another picture is left out, and one that gives up too") {
     CHECK(head.last(1).kind == Kind::stop);
 }
 
+TEST_CASE("Of what ails all ranks, rank 0 alone speaks; what ails one is named when rank 0 begins") {
+    Head head;
+    head.tell(1, Tell::gave_up, WordWriter().put(std::string("no device")).take());
+    CHECK(head.warnings.empty());
+    head.start(2);
+    REQUIRE(head.warnings.size() == 1);
+    CHECK(head.warnings[0] == "rank 1 on host (process 101): no device; the others render without it");
+    // Such a rank has nothing to save.
+    head.tell(0, Tell::interrupted, WordWriter().put(std::uint64_t{130}).take());
+    head.tell(0, Tell::saved, WordWriter().put(std::uint64_t{0}).take());
+    head.tell(2, Tell::saved, WordWriter().put(std::uint64_t{0}).take());
+    CHECK(head.last(0).kind == Kind::finished);
+}
+
 TEST_CASE("A signal to one rank stops all, and rank 0 leaves when all have saved") {
     Head head;
     head.start(100);

@@ -93,7 +93,7 @@ RankResult render_on(std::unique_ptr<RankChannel> channel, std::uint64_t samples
             result.samples += order.block.end - order.block.first;
             result.last_end = now_seconds();
             ++blocks;
-            interrupted = faulty && blocks == fault.interrupted_after;
+            interrupted = interrupted || (faulty && blocks == fault.interrupted_after);
             if (faulty && blocks == fault.gives_up_after) {
                 team.tell_gave_up("tired");
                 film = empty_film();

@@ -79,6 +79,7 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
     if (work.kept().spp > 0 && !audience.quiet) {
         print_note("{}: going on from its {} samples per pixel\n", fmt::join(work.kept().paths, ", "), work.kept().spp);
     }
+    const std::uint32_t kept_spp = work.kept().spp;
     Picture picture;
     std::optional<ProgressLine> line(std::in_place, request.spp, audience.label);
     ProgressiveResult result;
@@ -142,7 +143,7 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
                                    totals.nonfinite, totals.samples + totals.nonfinite));
     }
     picture.json = json_of(request, outcome, saved, renderer, film, session.packed().features);
-    picture.json["kept_spp"] = work.kept().spp;
+    picture.json["kept_spp"] = kept_spp;
     device_seconds.put(renderer, session.renderer(), guard.losses() == losses_before, picture.json);
     if (can_be_lost) {
         picture.json["device_losses"] = guard.losses() - losses_before;

@@ -28,7 +28,7 @@ public:
     /// The devices and processors of this rank's share of its host, where the request leaves them open.
     void take_share(RenderRequest& request) const;
 
-    /// Rank 0 prints the line, and returns the JSON from results() at the end. From any rank.
+    /// Rank 0 prints the line, which may be empty, and returns the JSON from results() at the end. From any rank.
     void report(const std::string& line, const nlohmann::ordered_json& json, int exit_code);
     struct Results {
         std::vector<nlohmann::ordered_json> json;

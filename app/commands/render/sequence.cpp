@@ -109,7 +109,7 @@ int render_frames_on_ranks(RankRun& run, const SampleRanges& unfinished, const s
         if (order.kind == Order::Kind::render) {
             const Picture picture = render(static_cast<std::uint32_t>(order.block.first));
             if (picture.saved) {
-                run.report(picture.line, picture.json, picture_exit_code(picture));
+                run.report(json ? "" : picture.line, picture.json, picture_exit_code(picture));
             }
             continue;
         }
