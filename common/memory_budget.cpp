@@ -7,7 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
-#include <unistd.h>
+
+#include "memory_groups.h"
 
 namespace diptych::core {
 namespace {
@@ -21,8 +22,7 @@ std::uint64_t sum_of(std::uint64_t a, std::uint64_t b) {
 }  // namespace
 
 std::uint64_t default_memory_limit() {
-    static const std::uint64_t quarter =
-        static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / 4;
+    static const std::uint64_t quarter = memory_of_process() / 4;
     return quarter;
 }
 

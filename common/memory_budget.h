@@ -15,7 +15,7 @@ public:
     using Error::Error;
 };
 
-/// A quarter of the machine's memory, in bytes.
+/// A quarter of the machine's memory, or of what the process's control groups let it have of it, in bytes.
 std::uint64_t default_memory_limit();
 
 /// Bytes as "4.0 GB".

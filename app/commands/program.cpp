@@ -16,6 +16,7 @@
 #include "commands/program.h"
 #include "console/output.h"
 #include "console/report.h"
+#include "one_line.h"
 #include "commands/suggestion.h"
 
 namespace diptych::core::app {

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <set>
 
 #include "build_info.h"
 #include "console/option_names.h"
 #include "console/output.h"
+#include "one_line.h"
 
 namespace diptych::core::app {
 
@@ -31,14 +31,6 @@ std::string scaled(double value, double thousand, const std::vector<const char*>
 
 std::string program_version() {
     return build_info::program();
-}
-
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') {
-        text.pop_back();
-    }
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
 }
 
 void report_error(const std::string& message) {

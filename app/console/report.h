@@ -12,9 +12,6 @@ namespace diptych::core::app {
 /// "diptych 0.1.0 (commit …)".
 std::string program_version();
 
-/// Line breaks become spaces.
-std::string one_line(std::string text);
-
 /// One line each on stderr, with options in the place of settings that a message of the library names.
 void report_error(const std::string& message);
 void report_warning(const std::string& message);

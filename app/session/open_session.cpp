@@ -28,18 +28,19 @@ SessionHooks reporting_hooks() {
     return {.busy = {}, .warn = report_once};
 }
 
-Session open_session(const Scene& scene, const RenderRequest& request) {
-    return {scene, request.settings, renderer_maker_of(request), reporting_hooks()};
+Session open_session(const Scene& scene, const RenderRequest& request, const MakeRenderer& instead) {
+    return {scene, request.settings, instead ? instead : renderer_maker_of(request), reporting_hooks()};
 }
 
-Session open_session(const Scene& scene, const RenderRequest& request, const Moment& moment) {
-    return {scene, request.settings, renderer_maker_of(request), moment, reporting_hooks()};
+Session open_session(const Scene& scene, const RenderRequest& request, const Moment& moment,
+                     const MakeRenderer& instead) {
+    return {scene, request.settings, instead ? instead : renderer_maker_of(request), moment, reporting_hooks()};
 }
 
-Session open_played(const Scene& scene, RenderRequest request) {
+Session open_played(const Scene& scene, RenderRequest request, const MakeRenderer& instead) {
     request.settings.moves = request.backend != "oracle" && chains_frames(request.settings) &&
                              (moves(scene) || request.orbit != 0);
-    return open_session(scene, request, Moment());
+    return open_session(scene, request, Moment(), instead);
 }
 
 Session open_requested(const Scene& scene, const RenderRequest& request, bool plays) {

@@ -6,7 +6,7 @@
 
 #include "error.h"
 #include "console/option_names.h"
-#include "console/report.h"
+#include "one_line.h"
 #include "session/input_files.h"
 #include "session/scene_setup.h"
 

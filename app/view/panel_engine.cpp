@@ -8,7 +8,7 @@
 #include "render/seeds.h"
 #include "console/option_names.h"
 #include "console/repeat_command.h"
-#include "console/report.h"
+#include "one_line.h"
 #include "session/open_session.h"
 #include "view/film_figures.h"
 #include "view/renderer_on_device.h"

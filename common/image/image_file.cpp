@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <exception>
 #include <stdexcept>
 
 #include "error.h"
@@ -71,12 +72,34 @@ void check_writable(const fs::path& path) {
     with_library(path, [](const ImageLibrary&) {});
 }
 
-void write_exr_channels(const fs::path& path, const Image& image, const std::vector<std::string>& channel_names,
-                        const std::map<std::string, std::string>& attributes, const WordChannels* words) {
-    require_shape(path, image, channel_names.size() == static_cast<size_t>(image.channels));
-    encode_and_write(path, [&](const ImageLibrary& library) {
-        return library.encode_exr(image, channel_names, attributes, words);
+void write_exr_picture(const fs::path& path, const ExrPicture& picture, const WriteBehind& behind) {
+    TemporaryFile file(path);
+    std::exception_ptr failed_write;  // its message names the file already
+    with_library(path, [&](const ImageLibrary& library) {
+        try {
+            library.encode_exr(picture, file);
+        } catch (const Error&) {
+            failed_write = std::current_exception();
+        }
     });
+    if (failed_write) {
+        std::rethrow_exception(failed_write);
+    }
+    if (behind) {
+        behind(file);
+    }
+    file.sync();
+    file.publish();
+}
+
+void write_exr_channels(const fs::path& path, const Image& image, const std::vector<std::string>& channel_names,
+                        const std::map<std::string, std::string>& attributes) {
+    require_shape(path, image, channel_names.size() == static_cast<size_t>(image.channels));
+    const auto rows = [&](int first, int count, std::span<float> values) {
+        const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(image.channels);
+        std::copy_n(&image.data[static_cast<size_t>(first) * row], static_cast<size_t>(count) * row, values.data());
+    };
+    write_exr_picture(path, {image.width, image.height, channel_names, attributes, ExrCompression::zip, rows});
 }
 
 std::vector<unsigned char> png_bytes(const fs::path& path, const Image& display_values) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,7 +12,9 @@
 
 #include "image/chromaticities.h"
 #include "image/image.h"
+#include "image/image_library.h"
 #include "image/pixel_window.h"
+#include "image/temporary_file.h"
 #include "image/word_channels.h"
 
 namespace diptych::core {
@@ -50,15 +53,20 @@ RawImage read_raw(const std::filesystem::path& path, const std::string& layer = 
 /// The string attributes of a file that OpenImageIO reads. Throws an Error naming file and reason.
 std::map<std::string, std::string> read_attributes(const std::filesystem::path& path);
 
-/// The words that write_exr_channels has put behind a picture; none where the file has none. Throws an Error naming
-/// file and reason.
+/// The words that earlier versions have put into channels behind a picture; none where the file has none. Throws an
+/// Error naming file and reason.
 std::optional<WordChannels> read_words(const std::filesystem::path& path);
 
-/// float32, zip-compressed, one part. Channel i of the image gets channel_names[i]. With `words`, unless null, they
-/// are more channels, and the compression is rle.
+/// Writes what goes behind the picture in its file, where readers of pictures do not look. Throws Error.
+using WriteBehind = std::function<void(TemporaryFile& file)>;
+
+/// Rows go to the file as the picture gives them. Throws an Error naming file and reason.
+void write_exr_picture(const std::filesystem::path& path, const ExrPicture& picture, const WriteBehind& behind = {});
+
+/// float32, zip-compressed, one part. Channel i of the image gets channel_names[i].
 void write_exr_channels(const std::filesystem::path& path, const Image& image,
                         const std::vector<std::string>& channel_names,
-                        const std::map<std::string, std::string>& attributes, const WordChannels* words = nullptr);
+                        const std::map<std::string, std::string>& attributes);
 
 /// 8-bit PNG of 1 or 3 channels of display values (sRGB encoded already); clamped to [0, 1], NaN becomes 0.
 void write_png(const std::filesystem::path& path, const Image& display_values);

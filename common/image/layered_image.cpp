@@ -71,54 +71,89 @@ float srgb_decoded(float encoded) {
     return static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
 }
 
-void write_exr(const std::filesystem::path& path, const LayeredImage& layers, const WordChannels* words) {
-    struct Part {
-        const Image* image;
-        const std::vector<std::string>* names;
-    };
-    std::vector<Part> parts = {{&layers.color, &color_channels}};
-    const auto require = [&](const char* name, const Image& image, size_t channels) {
-        const Image expected{layers.color.width, layers.color.height, static_cast<int>(channels), {}};
-        if (!image.same_shape(expected) || image.data.size() != image.pixel_count() * channels) {
-            throw Error(path.string() + ": cannot write: the layer '" + name + "' is " + shape_text(image) + ", not " +
-                        shape_text(expected));
-        }
-    };
-    require("colour", layers.color, color_channels.size());
-    for (const OptionalLayer& layer : optional_layers()) {
-        const std::optional<Image>& image = layers.*layer.image;
-        if (!image) {
-            continue;
-        }
-        require(layer.name, *image, layer.channels.size());
-        parts.push_back({&*image, &layer.channels});
-    }
+namespace {
 
-    std::vector<std::string> names;
-    for (const Part& part : parts) {
-        names.insert(names.end(), part.names->begin(), part.names->end());
+struct Layer {
+    const char* name;
+    const Image* image;
+    const std::vector<std::string>* channels;
+};
+
+/// In the order of the file's channels.
+std::vector<Layer> layers_in(const LayeredImage& picture) {
+    std::vector<Layer> layers = {{"colour", &picture.color, &color_channels}};
+    for (const OptionalLayer& layer : optional_layers()) {
+        if (const std::optional<Image>& image = picture.*layer.image) {
+            layers.push_back({layer.name, &*image, &layer.channels});
+        }
     }
-    Image all = make_image(layers.color.width, layers.color.height, static_cast<int>(names.size()));
-    in_parts(all.pixel_count(), [&](size_t begin, size_t end) {
-        float* to = all.data.data() + begin * names.size();
-        for (size_t pixel = begin; pixel < end; ++pixel) {
-            for (const Part& part : parts) {
-                const size_t channels = part.names->size();
-                to = std::copy_n(part.image->data.data() + pixel * channels, channels, to);
+    return layers;
+}
+
+std::vector<std::string> channels_in(const LayeredImage& picture) {
+    std::vector<std::string> names;
+    for (const Layer& layer : layers_in(picture)) {
+        names.insert(names.end(), layer.channels->begin(), layer.channels->end());
+    }
+    return names;
+}
+
+void require_layers(const std::filesystem::path& path, const LayeredImage& picture) {
+    for (const Layer& layer : layers_in(picture)) {
+        const size_t channels = layer.channels->size();
+        const Image expected{picture.color.width, picture.color.height, static_cast<int>(channels), {}};
+        if (!layer.image->same_shape(expected) || layer.image->data.size() != layer.image->pixel_count() * channels) {
+            throw Error(path.string() + ": cannot write: the layer '" + layer.name + "' is " +
+                        shape_text(*layer.image) + ", not " + shape_text(expected));
+        }
+    }
+}
+
+/// All channels of `count` pixels, from pixel `first` on.
+void interleave(const LayeredImage& picture, size_t first, size_t count, float* values) {
+    const std::vector<Layer> layers = layers_in(picture);
+    const size_t stride = channels_in(picture).size();
+    in_parts(count, [&](size_t begin, size_t end) {
+        float* to = values + begin * stride;
+        for (size_t pixel = first + begin; pixel < first + end; ++pixel) {
+            for (const Layer& layer : layers) {
+                const size_t channels = layer.channels->size();
+                to = std::copy_n(layer.image->data.data() + pixel * channels, channels, to);
             }
         }
     });
+}
 
+std::map<std::string, std::string> attributes_of(const std::map<std::string, std::string>& metadata) {
     std::map<std::string, std::string> attributes;
-    for (const auto& [name, value] : layers.metadata) {
+    for (const auto& [name, value] : metadata) {
         if (!value.empty()) {
             attributes[metadata_prefix + name] = value;
         }
     }
-    if (words != nullptr) {
-        attributes[word_digest_attribute] = words_digest(*words);
-    }
-    write_exr_channels(path, all, names, attributes, words);
+    return attributes;
+}
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& path, const LayeredImage& layers) {
+    require_layers(path, layers);
+    const auto rows = [&](int first, int count, std::span<float> values) {
+        const auto width = static_cast<size_t>(layers.color.width);
+        interleave(layers, static_cast<size_t>(first) * width, static_cast<size_t>(count) * width, values.data());
+    };
+    write_exr_picture(path, {layers.color.width, layers.color.height, channels_in(layers), attributes_of(layers.metadata),
+                             ExrCompression::zip, rows});
+}
+
+void write_exr(const std::filesystem::path& path, const GrowingImage& image, const WriteBehind& behind) {
+    const auto rows = [&](int first, int count, std::span<float> values) {
+        const LayeredImage band = image.band(first, count);
+        interleave(band, 0, band.color.pixel_count(), values.data());
+    };
+    write_exr_picture(path, {image.width, image.height, channels_in(image.band(0, 1)), attributes_of(image.metadata),
+                             image.compression, rows},
+                      behind);
 }
 
 namespace {

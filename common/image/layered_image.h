@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,11 +25,20 @@ struct LayeredImage {
     std::string layer;    // the layer of the file that `color` is, where nobody named one and the file holds others
 };
 
-/// float32, zip: R G B, then stderr.R/G/B, albedo.R/G/B, normal.X/Y/Z, depth.Z for the layers that are there;
-/// metadata as string attributes `diptych:NAME`. Values survive bit for bit; metadata with an empty value is not
-/// written. With `words`, unless null, as more channels, and rle. Equal input gives equal bytes. Throws an Error naming file and
-/// reason.
-void write_exr(const std::filesystem::path& path, const LayeredImage& layers, const WordChannels* words = nullptr);
+/// A picture that is made while it is written.
+struct GrowingImage {
+    int width = 0;
+    int height = 0;
+    std::function<LayeredImage(int first, int count)> band;  // rows first .. first+count-1, with the same layers always
+    std::map<std::string, std::string> metadata;
+    ExrCompression compression = ExrCompression::zip;
+};
+
+/// float32: R G B, then stderr.R/G/B, albedo.R/G/B, normal.X/Y/Z, depth.Z for the layers that are there; metadata as
+/// string attributes `diptych:NAME`. Values survive bit for bit; metadata with an empty value is not written. Equal
+/// input gives equal bytes. Throws an Error naming file and reason.
+void write_exr(const std::filesystem::path& path, const LayeredImage& layers);
+void write_exr(const std::filesystem::path& path, const GrowingImage& image, const WriteBehind& behind = {});
 
 /// The metadata of an EXR file that write_exr has written. Throws an Error naming file and reason.
 std::map<std::string, std::string> read_metadata(const std::filesystem::path& path);

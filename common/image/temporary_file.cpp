@@ -90,18 +90,32 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::write(std::string_view bytes) {
+    write_at(size(), {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+}
+
+void TemporaryFile::write_at(std::uint64_t place, std::span<const unsigned char> bytes) {
     while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor_, bytes.data(), std::min(bytes.size(), longest_write));
+        const auto at = static_cast<off_t>(place);
+        const ssize_t written = ::pwrite(descriptor_, bytes.data(), std::min(bytes.size(), longest_write), at);
         if (written < 0 && errno == EINTR) {
             continue;
         }
         if (written <= 0) {
             fail_to_write(target_, written < 0 ? reason_of(errno, target_) : "nothing could be written");
         }
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-        // The disk begins while the rest is copied, so that `sync` waits less. No matter where the system cannot.
-        ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+        place += static_cast<std::uint64_t>(written);
+        // The disk begins while the rest is made, so that `sync` waits less. No matter where the system cannot.
+        ::sync_file_range(descriptor_, at, written, SYNC_FILE_RANGE_WRITE);
     }
+}
+
+std::uint64_t TemporaryFile::size() const {
+    struct stat status = {};
+    if (::fstat(descriptor_, &status) != 0) {
+        fail_to_write(target_, reason_of(errno, target_));
+    }
+    return static_cast<std::uint64_t>(status.st_size);
 }
 
 void TemporaryFile::sync() {

@@ -1,4 +1,4 @@
-// Channels of an EXR file that hold words of 32 bits beside the picture.
+// Channels of an EXR file that hold words of 32 bits beside the picture. Earlier versions wrote the sums of films so.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,7 @@
 
 namespace diptych::core {
 
-/// What the names of such channels begin with. It comes last among the layers that write_exr knows, so that readers of a
-/// picture, who read a range of channels, need not read the words.
+/// What the names of such channels begin with.
 inline constexpr const char* word_prefix = "sums.";
 
 /// The string attribute of the file that holds words_digest.

@@ -27,7 +27,8 @@ VerifySide::VerifySide(const SideName& name, const VerifySubject& subject, const
     if (!frames.empty()) {
         moments_.emplace(subject.scene, request);
     }
-    session_ = std::make_unique<Session>(subject.open(subject.scene, request, moments_.has_value()));
+    session_ = std::make_unique<Session>(
+        guard_.open([&](const MakeRenderer&) { return subject.open(subject.scene, request, moments_.has_value()); }));
 }
 
 std::size_t VerifySide::place_of(std::optional<std::uint32_t> frame) const {

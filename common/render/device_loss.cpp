@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "clock.h"
@@ -69,6 +70,15 @@ void LossGuard::run(Session& session, const std::atomic<bool>& cancel, const std
             renewed();
         }
     });
+}
+
+Session LossGuard::open(const std::function<Session(const MakeRenderer& instead)>& open) {
+    static const std::atomic<bool> never = false;
+    std::optional<Session> session;
+    MakeRenderer instead;
+    run(never, [&] { session.emplace(open(instead)); },
+        [&] { instead = policy_.choice == OnDeviceLost::cpu ? policy_.cpu : MakeRenderer(); });
+    return std::move(*session);
 }
 
 }  // namespace diptych::core

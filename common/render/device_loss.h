@@ -36,6 +36,9 @@ public:
     void run(Session& session, const std::atomic<bool>& cancel, const std::function<void()>& work,
              const std::function<void()>& renewed = {});
 
+    /// Opens a session. `open` is given nothing, or after a loss what is to make the renderer instead of the request's own.
+    Session open(const std::function<Session(const MakeRenderer& instead)>& open);
+
     int losses() const { return losses_; }
     const DeviceLossPolicy& policy() const { return policy_; }
 

@@ -8,6 +8,7 @@
 #include "error.h"
 #include "image/image_file.h"
 #include "image/layered_image.h"
+#include "render/film_behind.h"
 #include "render/film_words.h"
 
 namespace diptych::core {
@@ -36,17 +37,19 @@ bool is_idle(const std::string& name, const Metadata& metadata) {
 }  // namespace
 
 std::optional<FilmFile> read_film(const std::filesystem::path& path) {
-    const std::optional<WordChannels> words = read_words(path);
-    if (!words) {
-        return std::nullopt;
-    }
     FilmFile file;
     file.metadata = read_metadata(path);
+    const bool behind = file.metadata.erase(film_behind_entry) > 0;
+    const std::optional<WordChannels> words = behind ? std::nullopt : read_words(path);
+    if (!behind && !words) {
+        return std::nullopt;
+    }
     file.metadata.erase("sums_digest");  // of the file, not of the picture
     try {
         file.samples = SampleRanges::parse(entry(file.metadata, "samples"));
-        file.film = film_of_words(*words, entry(file.metadata, "standard_error") == "yes",
-                                  entry(file.metadata, "first_hit_layers") == "yes");
+        file.film = behind ? read_film_behind(path)
+                           : film_of_words(*words, entry(file.metadata, "standard_error") == "yes",
+                                           entry(file.metadata, "first_hit_layers") == "yes");
     } catch (const std::runtime_error& error) {
         throw Error(path.string() + ": cannot read its film: " + error.what());
     }

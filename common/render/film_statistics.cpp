@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "threads.h"
 
 namespace diptych::core {
 
@@ -117,19 +120,33 @@ Rgb pixel_standard_error(const shared::FilmPixel& pixel, const shared::FilmMomen
 }
 
 std::optional<double> estimated_relmse(const Film& film) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < film.moments.size(); ++i) {
-        const Rgb error = pixel_standard_error(film.pixels[i], film.moments[i]);
-        const Rgb mean = pixel_mean(film.pixels[i]);
-        for (int channel = 0; channel < 3; ++channel) {
-            if (std::isfinite(error[channel])) {
-                sum += error[channel] * error[channel] / (mean[channel] * mean[channel] + 1e-2);
-                ++count;
+    struct Part {
+        double sum = 0;
+        std::size_t count = 0;
+    };
+    // Parts of a fixed size, added in order: a render stops by this number, which may not depend on how many cores there
+    // are.
+    constexpr std::size_t part_pixels = std::size_t{1} << 16U;
+    std::vector<Part> parts((film.moments.size() + part_pixels - 1) / part_pixels);
+    in_parts(parts.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin * part_pixels; i < std::min(end * part_pixels, film.moments.size()); ++i) {
+            Part& part = parts[i / part_pixels];
+            const Rgb error = pixel_standard_error(film.pixels[i], film.moments[i]);
+            const Rgb mean = pixel_mean(film.pixels[i]);
+            for (int channel = 0; channel < 3; ++channel) {
+                if (std::isfinite(error[channel])) {
+                    part.sum += error[channel] * error[channel] / (mean[channel] * mean[channel] + 1e-2);
+                    ++part.count;
+                }
             }
         }
+    });
+    Part all;
+    for (const Part& part : parts) {
+        all.sum += part.sum;
+        all.count += part.count;
     }
-    return count == 0 ? std::nullopt : std::optional(sum / static_cast<double>(count));
+    return all.count == 0 ? std::nullopt : std::optional(all.sum / static_cast<double>(all.count));
 }
 
 }  // namespace diptych::core

@@ -55,43 +55,30 @@ const std::vector<std::string>& first_hit_words() {
     return names;
 }
 
-/// An array of structs of words, and the names of the words of one. Word is constant where the film is.
-template <class Word>
+/// An array of structs of words, and the names of the words of one.
 struct Words {
-    std::span<Word> words;
+    std::span<std::uint32_t> words;
     const std::vector<std::string>* names;
 
     std::size_t stride() const { return names->size(); }
 };
 
-template <class Word, class Structs>
-Words<Word> words_of(Structs& structs, const std::vector<std::string>& names) {
-    static_assert(sizeof(structs[0]) % sizeof(Word) == 0);
-    return {{reinterpret_cast<Word*>(structs.data()), structs.size() * sizeof(structs[0]) / sizeof(Word)}, &names};
+template <class Struct>
+Words words_of(std::vector<Struct>& structs, const std::vector<std::string>& names) {
+    static_assert(sizeof(Struct) % sizeof(std::uint32_t) == 0);
+    return {{reinterpret_cast<std::uint32_t*>(structs.data()), structs.size() * sizeof(Struct) / sizeof(std::uint32_t)},
+            &names};
 }
 
-template <class Word, class AnyFilm>
-std::array<Words<Word>, 3> all_words(AnyFilm& film) {
+std::array<Words, 3> all_words(Film& film) {
     static_assert(sizeof(shared::FilmPixel) == 4 * 23 && sizeof(shared::FilmMoments) == 4 * 19 &&
                   sizeof(shared::FilmFirstHit) == 4 * 17);
-    return {words_of<Word>(film.pixels, pixel_words()), words_of<Word>(film.moments, moment_words()),
-            words_of<Word>(film.first_hits, first_hit_words())};
+    return {words_of(film.pixels, pixel_words()), words_of(film.moments, moment_words()),
+            words_of(film.first_hits, first_hit_words())};
 }
 
-/// For each word of a struct, whether any pixel has a bit of it set.
-std::vector<bool> used_words(const Words<const std::uint32_t>& words) {
-    std::vector<std::uint32_t> bits(words.stride());
-    for (std::size_t i = 0; i < words.words.size(); i += words.stride()) {
-        for (std::size_t k = 0; k < words.stride(); ++k) {
-            bits[k] |= words.words[i + k];
-        }
-    }
-    std::vector<bool> used(words.stride());
-    std::transform(bits.begin(), bits.end(), used.begin(), [](std::uint32_t any) { return any != 0; });
-    return used;
-}
+}  // namespace
 
-/// A sum's highest digit is within the range of doubles, which the oracle sums. Merging takes a step for each digit.
 void check_bases(const Film& film) {
     constexpr shared::uint most = 128;
     const auto is_good = [&](std::size_t i) {
@@ -105,37 +92,6 @@ void check_bases(const Film& film) {
     }
 }
 
-/// Where a channel's words lie in the film.
-struct Place {
-    const std::uint32_t* first;
-    std::size_t stride;
-};
-
-}  // namespace
-
-WordChannels film_words(const Film& film) {
-    WordChannels channels;
-    channels.width = film.width;
-    channels.height = film.height;
-    std::vector<Place> places;
-    for (const auto& words : all_words<const std::uint32_t>(film)) {
-        const std::vector<bool> used = used_words(words);
-        for (std::size_t k = 0; k < used.size(); ++k) {
-            if (used[k]) {
-                channels.names.push_back((*words.names)[k]);
-                places.push_back({words.words.data() + k, used.size()});
-            }
-        }
-    }
-    channels.data.reserve(film.pixels.size() * places.size());
-    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        for (const Place& place : places) {
-            channels.data.push_back(place.first[i * place.stride]);
-        }
-    }
-    return channels;
-}
-
 Film film_of_words(const WordChannels& words, bool moments, bool first_hits) {
     Film film;
     film.width = words.width;
@@ -144,7 +100,7 @@ Film film_of_words(const WordChannels& words, bool moments, bool first_hits) {
     film.pixels.resize(count);
     film.moments.resize(moments ? count : 0);
     film.first_hits.resize(first_hits ? count : 0);
-    const auto targets = all_words<std::uint32_t>(film);
+    const auto targets = all_words(film);
     for (std::size_t channel = 0; channel < words.names.size(); ++channel) {
         const std::string& name = words.names[channel];
         const auto known = std::find_if(targets.begin(), targets.end(), [&](const auto& target) {

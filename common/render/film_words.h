@@ -1,4 +1,4 @@
-// A film as words of 32 bits with names, for files.
+// The film of words of 32 bits with names, as files of earlier versions hold them.
 #pragma once
 
 #include "image/word_channels.h"
@@ -6,11 +6,12 @@
 
 namespace diptych::core {
 
-/// All words of all pixels. Words that are 0 in every pixel are left out.
-WordChannels film_words(const Film& film);
-
 /// The film of such words; channels that are missing are 0. A film has moments where `moments` says so, and first hits
 /// likewise. Throws std::runtime_error where a channel is unknown.
 Film film_of_words(const WordChannels& words, bool moments, bool first_hits);
+
+/// Throws std::runtime_error where the highest digit of a sum is beyond the range of doubles, which the oracle sums:
+/// merging takes a step for each digit.
+void check_bases(const Film& film);
 
 }  // namespace diptych::core

@@ -2,42 +2,49 @@
 
 #include <cstdlib>
 
-#include "image/image_file.h"
+#include "image/layered_image.h"
 #include "image/tonemap_image.h"
-#include "render/film_words.h"
+#include "render/film_behind.h"
 
 namespace diptych::core {
 
-LayeredImage developed_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome) {
-    LayeredImage layers = develop(film);
-    layers.metadata = render_metadata(request, outcome);
-    return layers;
+namespace {
+
+void write_film_exr(const Film& film, const std::map<std::string, std::string>& metadata, bool sums,
+                    const std::string& path) {
+    const auto interrupted = metadata.find("interrupted");
+    const bool quickly = interrupted != metadata.end() && interrupted->second == "yes";
+    const FilmLayers layers = quickly && sums ? FilmLayers::color : FilmLayers::all;
+    GrowingImage image{film.width, film.height, {}, metadata, quickly ? ExrCompression::off : ExrCompression::zip};
+    image.band = [&](int first, int count) { return develop_rows(film, first, count, layers); };
+    WriteBehind behind;
+    if (sums) {
+        image.metadata[film_behind_entry] = "end of file";
+        behind = [&](TemporaryFile& file) { write_film_behind(film, file); };
+    }
+    write_exr(path, image, behind);
 }
 
-void save_layers(const LayeredImage& layers, const Film& film, const RenderRequest& request, const std::string& path) {
+}  // namespace
+
+void write_film(const Film& film, const std::map<std::string, std::string>& metadata, const RenderRequest& request,
+                const std::string& path) {
+    const auto color = [&] { return develop(film, FilmLayers::color).color; };
     switch (image_format(path)) {
     case ImageFormat::Exr:
-        if (request.sums) {
-            const WordChannels words = film_words(film);
-            write_exr(path, layers, &words);
-        } else {
-            write_exr(path, layers);
-        }
+        write_film_exr(film, metadata, request.sums, path);
         break;
     case ImageFormat::Png:
-        write_png(path,
-                  tonemapped(layers.color, tonemap_from_name(request.tonemap), static_cast<float>(request.exposure)));
+        write_png(path, tonemapped(color(), tonemap_from_name(request.tonemap), static_cast<float>(request.exposure)));
         break;
     case ImageFormat::Hdr:
-        write_hdr(path, layers.color);
+        write_hdr(path, color());
         break;
     }
 }
 
-LayeredImage save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome) {
-    LayeredImage layers = developed_film(film, request, outcome);
-    save_layers(layers, film, request, request.output);
-    return layers;
+void save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome) {
+    write_film(film, render_metadata(request, outcome), request, request.output);
 }
 
 RenderRequest shown_by(const Metadata& metadata, bool sums) {
@@ -53,9 +60,7 @@ RenderRequest shown_by(const Metadata& metadata, bool sums) {
 }
 
 void save_film_file(const FilmFile& file, const std::string& path, bool sums) {
-    LayeredImage layers = develop(file.film);
-    layers.metadata = file.metadata;
-    save_layers(layers, file.film, shown_by(file.metadata, sums), path);
+    write_film(file.film, file.metadata, shown_by(file.metadata, sums), path);
 }
 
 }  // namespace diptych::core

@@ -6,6 +6,7 @@
 #include "image/layered_image.h"
 #include "process.h"
 #include "render/film_file.h"
+#include "render/save_film.h"
 #include "skipping.h"
 
 using namespace diptych::core;
@@ -99,12 +100,10 @@ TEST_CASE("merge names the part that does not belong, and the samples that are m
     refuse({first, folder.file("other.exr")}, {"other.exr", "first.exr"});
     check_refusal(run_diptych(folder, {"merge", first, "-o", first}), 2, {first, "one of the parts"});
     // Of another version of the program.
-    LayeredImage layers = read_image(first);
-    layers.metadata["program"] = "diptych 0.0.1";
-    layers.metadata["samples"] = "2:4";
-    const std::optional<WordChannels> words = read_words(first);
-    REQUIRE(words);
-    write_exr(folder.file("old.exr"), layers, &*words);
+    FilmFile old = *read_film(first);
+    old.metadata["program"] = "diptych 0.0.1";
+    old.metadata["samples"] = "2:4";
+    save_film_file(old, folder.file("old.exr"), true);
     refuse({first, folder.file("old.exr")}, {"old.exr", "diptych 0.0.1"});
 }
 
@@ -114,9 +113,9 @@ TEST_CASE("a part whose sums are damaged is refused by name", "[app]") {
     const std::string part = folder.file("part.exr");
     REQUIRE(run_diptych(folder, render(scene, part, {"--samples", "0:2"})).exit_code == 0);
     const LayeredImage layers = read_image(part);
-    WordChannels words = *read_words(part);
-    words.data[5] ^= 4U;
-    write_exr(folder.file("other.exr"), layers, &words);  // a whole file: its digest is that of its words
+    FilmFile other = *read_film(part);
+    other.film.pixels[5].sum.low[1].x ^= 4U;
+    save_film_file(other, folder.file("other.exr"), true);  // a whole file: its digests are those of its sums
     CHECK(read_film(folder.file("other.exr")));
     const std::string bytes = file_text(part);
     std::size_t refused = 0;
@@ -136,8 +135,9 @@ TEST_CASE("a part whose sums are damaged is refused by name", "[app]") {
     }
     CHECK(refused > 0);
     // A digit out of all range, which merging would count up to.
-    words.data[std::size_t(std::find(words.names.begin(), words.names.end(), "radiance.base") - words.names.begin())] = ~0U;
-    write_exr(folder.file("range.exr"), layers, &words);
+    other.film.pixels[0].sum.base = ~0U;
+    other.metadata["interrupted"] = "yes";  // else the picture is made of the sums, which counts up to the digit too
+    save_film_file(other, folder.file("range.exr"), true);
     check_refusal(run_diptych(folder, {"merge", folder.file("range.exr"), "-o", folder.file("o.exr")}), 2,
                   {"range.exr", "out of range"});
 }

@@ -63,6 +63,34 @@ TEST_CASE("A device that is lost at any submission of a picture says so and leav
     check_no_validation_messages();
 }
 
+TEST_CASE("A device that is lost while a session opens on it is opened anew") {
+    NEED_VULKAN();
+    const Scene scene = generate_scene("cornell").scene;
+    const int passing = GENERATE(0, 1);
+    Devices devices;
+    const MakeRenderer open = devices.maker();
+    const MakeRenderer lose_first = [&](const Scene& opened, const PackedScene& packed, const RenderSettings& settings) {
+        if (!devices.opened.empty()) {
+            return open(opened, packed, settings);
+        }
+        devices.opened.push_back(open_test_gpu());
+        lose_after(*devices.opened.back(), passing);
+        return std::unique_ptr<Renderer>(std::make_unique<PathRenderer>(devices.opened.back(), packed));
+    };
+    DeviceLossPolicy policy;
+    policy.choice = OnDeviceLost::retry;
+    policy.first_pause = 0;
+    LossGuard guard(policy);
+    Session session = guard.open([&](const MakeRenderer&) {
+        return Session(scene, lost_settings(Integrator::path), lose_first);
+    });
+    CHECK(guard.losses() == 1);
+    CHECK(devices.opened.size() == 2);
+    session.render(0, 2, not_cancelled);
+    CHECK(samples_of_every_pixel(session.film()) == 2);
+    check_no_validation_messages();
+}
+
 namespace {
 
 void check_picture_outlasts_its_device(Integrator integrator) {

@@ -21,13 +21,16 @@ using diptych::core::image_tests::TemporaryFolder;
 
 namespace {
 
-enum class Lost { in_render, in_restart };
+enum class Lost { in_render, in_restart, in_opening };
 
 /// The CPU's renderer, lost in the call of that kind which counts `left` down to 0; renderers made later hold.
 class LosingRenderer final : public Renderer {
 public:
     LosingRenderer(const PackedScene& packed, Lost where, std::atomic<int>& left)
-        : renderer_(make_cpu_renderer(packed, 1)), where_(where), left_(left) {}
+        : renderer_(make_cpu_renderer(packed, 1)), where_(where), left_(left) {
+        note(Lost::in_opening);
+        require();
+    }
     std::string backend() const override { return "vulkan"; }
     std::string device() const override { return "a device"; }
     Capabilities capabilities() const override { return {true, true, false, false}; }
@@ -136,6 +139,45 @@ TEST_CASE("render: a picture whose device was lost is rendered to its end, or th
     // It was lost before the film was read for the first time.
     CHECK_FALSE(std::filesystem::exists(file_in(folder, "stopped.exr")));
     CHECK(render(0, "unknown.exr", "never") == 2);
+}
+
+TEST_CASE("A device that is lost while its session opens is opened anew, the CPU goes on, or exit code 3") {
+    const TemporaryFolder folder;
+    const std::string scene = GENERATE(cornell, moving_light);
+    const std::vector<std::string> frames =
+        scene == moving_light ? std::vector<std::string>{"--frames", "1"} : std::vector<std::string>();
+    const auto render = [&](int opening, const std::string& name, const std::string& choice) {
+        std::vector<std::string> more = {"--backend", "vulkan", "--spp", "4", "-o", file_in(folder, name),
+                                         "--on-device-lost", choice};
+        more.insert(more.end(), frames.begin(), frames.end());
+        return run_losing(opening, on_vulkan("render", scene, more), Lost::in_opening);
+    };
+    REQUIRE(render(0, "whole.exr", "stop") == 0);
+    CHECK(render(1, "retried.exr", "retry") == 0);
+    CHECK(equal_colors(file_in(folder, "retried.exr"), file_in(folder, "whole.exr")));
+    CHECK(render(1, "finished.exr", "cpu") == 0);
+    CHECK(equal_colors(file_in(folder, "finished.exr"), file_in(folder, "whole.exr")));
+    CHECK(render(1, "stopped.exr", "stop") == 3);
+    CHECK_FALSE(std::filesystem::exists(file_in(folder, "stopped.exr")));
+}
+
+TEST_CASE("verify and converge: a device that is lost while its session opens is opened anew, or exit code 3") {
+    const TemporaryFolder folder;
+    const auto verify = [&](int opening, const std::string& choice) {
+        return run_losing(opening, on_vulkan("verify", moving_light, {"--runs", "4", "--spp", "2", "--integrators", "path",
+                                                                      "--on-device-lost", choice}),
+                          Lost::in_opening);
+    };
+    CHECK(verify(1, "retry") == 0);
+    CHECK(verify(1, "stop") == 3);
+    const auto converge = [&](const std::string& choice) {
+        return run_losing(1, on_vulkan("converge", cornell, {"--methods", "vulkan:path", "--reference", "cpu:direct",
+                                                             "--spp-max", "2", "--runs", "3", "-o",
+                                                             file_in(folder, choice), "--on-device-lost", choice}),
+                          Lost::in_opening);
+    };
+    CHECK(converge("retry") == 0);
+    CHECK(converge("stop") == 3);
 }
 
 TEST_CASE("render: frames of a sequence whose device was lost are those of one that was not") {

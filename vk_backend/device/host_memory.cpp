@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
-#include <optional>
 #include <string>
+
+#include "memory_groups.h"
 
 namespace diptych::core {
 namespace {
@@ -36,23 +37,13 @@ std::uint64_t available() {
     return unlimited;
 }
 
-std::optional<std::uint64_t> number_in(const std::string& path) {
-    std::uint64_t number = 0;
-    std::ifstream file(path);
-    return file >> number ? std::optional(number) : std::nullopt;  // "max" is no number
-}
-
-/// What the memory controller leaves, as a container sees it (version 2, then version 1).
-std::uint64_t left_of_group() {
-    for (const auto& [limit, used] : {std::pair("memory.max", "memory.current"),
-                                      std::pair("memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes")}) {
-        const std::string folder = "/sys/fs/cgroup/";
-        const std::optional<std::uint64_t> most = number_in(folder + limit), now = number_in(folder + used);
-        if (most && now) {
-            return less(*most, *now);
-        }
+/// What the control groups of this process leave.
+std::uint64_t left_of_groups() {
+    std::uint64_t left = unlimited;
+    for (const MemoryGroup& group : memory_groups()) {
+        left = std::min(left, less(group.limit, group.used));
     }
-    return unlimited;
+    return left;
 }
 
 }  // namespace
@@ -62,7 +53,7 @@ std::uint64_t host_bytes_left() {
     std::uint64_t size = 0, resident = 0, shared = 0, text = 0, unused = 0, data = 0;
     std::ifstream("/proc/self/statm") >> size >> resident >> shared >> text >> unused >> data;
     const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    return std::min({available(), left_of_group(), left_of(RLIMIT_AS, size * page), left_of(RLIMIT_DATA, data * page)});
+    return std::min({available(), left_of_groups(), left_of(RLIMIT_AS, size * page), left_of(RLIMIT_DATA, data * page)});
 }
 
 }  // namespace diptych::core

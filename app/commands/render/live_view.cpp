@@ -24,7 +24,7 @@ namespace {
 
 constexpr int patience_seconds = 5;
 constexpr double show_seconds = 0.1;
-constexpr double least_finish_seconds = 0.5;
+constexpr double least_finish_seconds = 0.25;
 constexpr int look_milliseconds = 20;  // at the clock and at a wish to stop, while a viewer takes nothing
 constexpr std::size_t band_bytes = std::size_t{1} << 20U;  // of a packet: the viewer shows each as it comes
 

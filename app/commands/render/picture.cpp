@@ -96,7 +96,7 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
                 checkpoint(grown);
             }
             if (audience.live != nullptr) {
-                audience.live->show(request.output, develop(grown).color, cancel);
+                audience.live->show(request.output, develop(grown, FilmLayers::color).color, cancel);
             }
         };
     }
@@ -134,7 +134,7 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
     }
     const SavedPicture saved = work.save(film, outcome);
     if (audience.live != nullptr) {
-        audience.live->finish(request.output, saved.layers.color, last_show_seconds(result));
+        audience.live->finish(request.output, develop(film, FilmLayers::color).color, last_show_seconds(result));
     }
     picture.saved = true;
     picture.fell_back = saved.fell_back;
@@ -142,11 +142,13 @@ Picture render_picture(Session& session, const RenderRequest& request, const std
         report_warning(fmt::format("{}: {} of {} samples were dropped: they were not finite, or negative", saved.path,
                                    totals.nonfinite, totals.samples + totals.nonfinite));
     }
-    picture.json = json_of(request, outcome, saved, renderer, film, session.packed().features);
-    picture.json["kept_spp"] = kept_spp;
-    device_seconds.put(renderer, session.renderer(), guard.losses() == losses_before, picture.json);
-    if (can_be_lost) {
-        picture.json["device_losses"] = guard.losses() - losses_before;
+    if (audience.quiet) {  // else nobody reads the JSON, whose estimate of the error takes long
+        picture.json = json_of(request, outcome, saved, renderer, film, totals, session.packed().features);
+        picture.json["kept_spp"] = kept_spp;
+        device_seconds.put(renderer, session.renderer(), guard.losses() == losses_before, picture.json);
+        if (can_be_lost) {
+            picture.json["device_losses"] = guard.losses() - losses_before;
+        }
     }
     picture.line = fmt::format("{}: {}x{}, {} spp in {:.2f} s on {}{}{}\n", saved.path, film.width, film.height,
                                outcome.spp, outcome.seconds, outcome.device, outcome.interrupted ? ", interrupted" : "",

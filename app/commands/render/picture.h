@@ -29,7 +29,7 @@ class LiveView;
 /// Who is told while it renders.
 struct PictureAudience {
     std::string label;         // before the progress line
-    bool quiet = false;        // no line on stdout at the end
+    bool quiet = false;        // the JSON is told at the end, not a line
     LiveView* live = nullptr;  // sees the picture now and then, and at the end
 };
 

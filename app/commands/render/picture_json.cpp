@@ -10,9 +10,9 @@
 namespace diptych::core::app {
 
 nlohmann::ordered_json json_of(const RenderRequest& request, const RenderOutcome& outcome, const SavedPicture& saved,
-                               const Renderer& renderer, const Film& film, std::uint32_t features) {
+                               const Renderer& renderer, const Film& film, const FilmTotals& totals,
+                               std::uint32_t features) {
     const RendererCosts costs = renderer.costs();
-    const FilmTotals totals = film_totals(film);
     const std::optional<double> relmse = estimated_relmse(film);
     const double seconds = std::max(outcome.seconds, 1e-12);
     nlohmann::ordered_json json;

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/render/save_picture.h"
-#include "render/film.h"
+#include "render/film_statistics.h"
 #include "render/metadata.h"
 #include "render/renderer.h"
 #include "render/request.h"
@@ -12,6 +12,7 @@
 namespace diptych::core::app {
 
 nlohmann::ordered_json json_of(const RenderRequest& request, const RenderOutcome& outcome, const SavedPicture& saved,
-                               const Renderer& renderer, const Film& film, std::uint32_t features);
+                               const Renderer& renderer, const Film& film, const FilmTotals& totals,
+                               std::uint32_t features);
 
 }  // namespace diptych::core::app

@@ -15,13 +15,6 @@ namespace diptych::core::app {
 
 namespace {
 
-/// Some pixels have more samples than others.
-bool is_uneven(const Film& film) {
-    const auto count = [](const shared::FilmPixel& pixel) { return pixel.samples + pixel.nonfinite; };
-    return std::any_of(film.pixels.begin(), film.pixels.end(),
-                       [&](const shared::FilmPixel& pixel) { return count(pixel) != count(film.pixels.front()); });
-}
-
 std::uint32_t first_sample(const RenderRequest& request) {
     return request.samples ? static_cast<std::uint32_t>(request.samples->first) : 0;
 }
@@ -139,7 +132,7 @@ RenderOutcome PictureWork::outcome_of(const SampleRanges& samples, std::uint64_t
     outcome.spp = static_cast<std::uint32_t>(samples.count());
     outcome.samples = samples;
     outcome.fingerprint = fingerprint_;
-    outcome.uneven = is_uneven(film);
+    outcome.uneven = totals.least < totals.most;
     outcome.uneven_from = uneven_from;
     outcome.rays = totals.rays;
     outcome.nonfinite = totals.nonfinite;

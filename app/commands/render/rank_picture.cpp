@@ -147,7 +147,7 @@ public:
                                        outcome.nonfinite));
         }
         nlohmann::ordered_json json =
-            json_of(request_, outcome, saved, session_.renderer(), film, session_.packed().features);
+            json_of(request_, outcome, saved, session_.renderer(), film, film_totals(film), session_.packed().features);
         json["kept_spp"] = work_.kept().spp;
         json["ranks"] = state.ranks;
         json["merge_seconds"] = merge_seconds;

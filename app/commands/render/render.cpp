@@ -214,9 +214,9 @@ int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) 
             fmt::format("{}: its animations are not played and it is shown at rest; give --frames or --start",
                         scene.name));
     }
-    Session session = open_session(scene, request);
-    InterruptGuard interrupt;
     LossGuard guard(device_loss_policy(options.on_device_lost, true, request));
+    Session session = guard.open([&](const MakeRenderer& instead) { return open_session(scene, request, instead); });
+    InterruptGuard interrupt;
     const auto begin = [&] {
         if (request.warm_up > 0) {
             session.render(0, request.warm_up, interrupt.requested());

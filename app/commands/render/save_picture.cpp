@@ -26,9 +26,10 @@ fs::path free_path(const fs::path& folder, const fs::path& output) {
 
 SavedPicture save_picture(const Film& film, const RenderRequest& request, const RenderOutcome& outcome,
                           const std::string& fallback_folder) {
-    SavedPicture picture{developed_film(film, request, outcome), request.output, false};
+    SavedPicture picture{request.output, false};
+    const std::map<std::string, std::string> metadata = render_metadata(request, outcome);
     try {
-        save_layers(picture.layers, film, request, picture.path);
+        write_film(film, metadata, request, picture.path);
     } catch (const Error& error) {
         if (fallback_folder.empty()) {
             throw;
@@ -36,7 +37,7 @@ SavedPicture save_picture(const Film& film, const RenderRequest& request, const 
         report_error(error.what());
         picture.path = free_path(fallback_folder, request.output).string();
         picture.fell_back = true;
-        save_layers(picture.layers, film, request, picture.path);
+        write_film(film, metadata, request, picture.path);
         report_error(fmt::format("{}: the picture lies in {} instead", request.output, picture.path));
     }
     return picture;

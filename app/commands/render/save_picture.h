@@ -9,7 +9,6 @@
 namespace diptych::core::app {
 
 struct SavedPicture {
-    LayeredImage layers;
     std::string path;
     bool fell_back = false;  // it does not lie where it was asked for
 };

@@ -135,7 +135,8 @@ int render_frames_on_ranks(RankRun& run, const SampleRanges& unfinished, const s
 
 int render_sequence(const Scene& scene, const RenderRequest& request, const SequenceOptions& options) {
     const FrameMoments moments(scene, request);
-    Session session = open_played(scene, request);
+    LossGuard guard(options.on_device_lost);
+    Session session = guard.open([&](const MakeRenderer& instead) { return open_played(scene, request, instead); });
     const bool chained = session.chained();
     const std::uint32_t first = options.first_frame;
     std::vector<bool> finished(request.frames);
@@ -220,7 +221,7 @@ int render_sequence(const Scene& scene, const RenderRequest& request, const Sequ
         Picture picture = render_picture(session, frame, interrupt.requested(),
                                          {.label = frame_label(frame, request.frames), .quiet = options.json, .live = options.live}, options.files,
                                          guard, [&] { begin_anew(i); });
-        if (picture.saved) {
+        if (picture.saved && options.json) {  // else nobody reads it, and a long sequence would fill the memory with it
             picture.json["pack_seconds"] = session.pack_seconds();
             picture.json["move_seconds"] = session.move_seconds();
             list.push_back(std::move(picture.json));

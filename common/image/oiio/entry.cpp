@@ -22,10 +22,7 @@ public:
         const std::string formats = "," + std::string(OIIO::get_string_attribute("input_format_list")) + ",";
         return formats.find("," + format + ",") != std::string::npos;
     }
-    Bytes encode_exr(const Image& image, const std::vector<std::string>& channel_names,
-                     const std::map<std::string, std::string>& attributes, const WordChannels* words) const override {
-        return exr_bytes(image, channel_names, attributes, words);
-    }
+    void encode_exr(const ExrPicture& picture, ByteSink& sink) const override { core::encode_exr(picture, sink); }
     Bytes encode_hdr(const Image& image) const override { return hdr_bytes(image); }
     Bytes encode_png(const ByteImage& image, bool srgb) const override { return png_bytes(image, srgb); }
 };

@@ -23,12 +23,18 @@ MethodRunner::Entry& MethodRunner::entry(std::uint32_t sample_count) {
     return entry;
 }
 
+const Session& MethodRunner::opened() {
+    static const std::atomic<bool> never = false;
+    guard_.run(never, [&] { entry(1); }, [&] { entries_.clear(); });
+    return *entry(1).session;
+}
+
 std::string MethodRunner::device() {
-    return entry(1).session->renderer().device();
+    return opened().renderer().device();
 }
 
 MethodSetup MethodRunner::setup() {
-    const Session& session = *entry(1).session;
+    const Session& session = opened();
     const RendererCosts costs = session.renderer().costs();
     return {session.renderer().device(), session.pack_seconds(), costs.build_seconds, costs.compile_seconds,
             costs.bytes};

@@ -45,6 +45,7 @@ private:
     };
 
     Entry& entry(std::uint32_t sample_count);
+    const Session& opened();
     bool render_run(std::uint32_t seed, const std::vector<std::uint32_t>& counts, const std::atomic<bool>& cancel,
                     const Checkpoint& checkpoint);
     std::uint32_t count_samples(double seconds, const std::atomic<bool>& cancel);
