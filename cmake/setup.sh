@@ -44,7 +44,7 @@ missing_packages() {
         command -v "${entry%%:*}" >/dev/null || echo "${entry##*:}"
     done
     command -v "${CXX:-c++}" >/dev/null || compiler_package "${CXX:-c++}"
-    for entry in libembree-dev libtbb-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libopenimageio-dev \
+    for entry in libembree-dev libtbb-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libopenimageio-dev zlib1g-dev \
         libcli11-dev libfmt-dev libspdlog-dev libvulkan-dev libvulkan1 libglfw3-dev libimgui-dev fonts-roboto-unhinted catch2 \
         pybind11-dev python3-dev libopenmpi-dev openmpi-bin; do
         has_package "$entry" || echo "$entry"

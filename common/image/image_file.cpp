@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <exception>
 #include <stdexcept>
 
 #include "error.h"
@@ -74,17 +73,7 @@ void check_writable(const fs::path& path) {
 
 void write_exr_picture(const fs::path& path, const ExrPicture& picture, const WriteBehind& behind) {
     TemporaryFile file(path);
-    std::exception_ptr failed_write;  // its message names the file already
-    with_library(path, [&](const ImageLibrary& library) {
-        try {
-            library.encode_exr(picture, file);
-        } catch (const Error&) {
-            failed_write = std::current_exception();
-        }
-    });
-    if (failed_write) {
-        std::rethrow_exception(failed_write);
-    }
+    write_exr_file(picture, file);
     if (behind) {
         behind(file);
     }

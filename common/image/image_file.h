@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "image/chromaticities.h"
+#include "image/exr_writer.h"
 #include "image/image.h"
-#include "image/image_library.h"
 #include "image/pixel_window.h"
 #include "image/temporary_file.h"
 #include "image/word_channels.h"

@@ -5,14 +5,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "image/byte_sink.h"
 #include "image/image.h"
 #include "image/picture_layers.h"
 #include "image/pixel_window.h"
@@ -25,20 +23,6 @@ struct ByteImage {
     int height = 0;
     int channels = 0;
     std::vector<std::uint8_t> data;
-};
-
-/// Lossless, both. Without compression, a picture is written as fast as the disk takes it.
-enum class ExrCompression { zip, off };
-
-/// A picture that an EXR file of one part is made of: float32 channels.
-struct ExrPicture {
-    int width = 0;
-    int height = 0;
-    std::vector<std::string> channels;
-    std::map<std::string, std::string> attributes;
-    ExrCompression compression = ExrCompression::zip;
-    /// Gives rows first .. first+count-1, channels interleaved. Asked for from the top, each row once.
-    std::function<void(int first, int count, std::span<float> values)> rows;
 };
 
 /// What the header of one part of a picture file says. Only EXR files have more than one part.
@@ -80,8 +64,6 @@ public:
     /// Whether a format can be read, by OpenImageIO's name for it.
     virtual bool reads(const std::string& format) const = 0;
 
-    /// Rows go to the sink as they come: no picture is in memory as a whole.
-    virtual void encode_exr(const ExrPicture& picture, ByteSink& sink) const = 0;
     virtual Bytes encode_hdr(const Image& image) const = 0;
     /// 1 to 4 channels; alpha is stored as it is. `srgb`: whether the file says that it holds sRGB.
     virtual Bytes encode_png(const ByteImage& image, bool srgb) const = 0;

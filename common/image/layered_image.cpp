@@ -73,15 +73,15 @@ float srgb_decoded(float encoded) {
 
 namespace {
 
-struct Layer {
+struct PresentLayer {
     const char* name;
     const Image* image;
     const std::vector<std::string>* channels;
 };
 
 /// In the order of the file's channels.
-std::vector<Layer> layers_in(const LayeredImage& picture) {
-    std::vector<Layer> layers = {{"colour", &picture.color, &color_channels}};
+std::vector<PresentLayer> layers_in(const LayeredImage& picture) {
+    std::vector<PresentLayer> layers = {{"colour", &picture.color, &color_channels}};
     for (const OptionalLayer& layer : optional_layers()) {
         if (const std::optional<Image>& image = picture.*layer.image) {
             layers.push_back({layer.name, &*image, &layer.channels});
@@ -92,14 +92,14 @@ std::vector<Layer> layers_in(const LayeredImage& picture) {
 
 std::vector<std::string> channels_in(const LayeredImage& picture) {
     std::vector<std::string> names;
-    for (const Layer& layer : layers_in(picture)) {
+    for (const PresentLayer& layer : layers_in(picture)) {
         names.insert(names.end(), layer.channels->begin(), layer.channels->end());
     }
     return names;
 }
 
 void require_layers(const std::filesystem::path& path, const LayeredImage& picture) {
-    for (const Layer& layer : layers_in(picture)) {
+    for (const PresentLayer& layer : layers_in(picture)) {
         const size_t channels = layer.channels->size();
         const Image expected{picture.color.width, picture.color.height, static_cast<int>(channels), {}};
         if (!layer.image->same_shape(expected) || layer.image->data.size() != layer.image->pixel_count() * channels) {
@@ -111,12 +111,12 @@ void require_layers(const std::filesystem::path& path, const LayeredImage& pictu
 
 /// All channels of `count` pixels, from pixel `first` on.
 void interleave(const LayeredImage& picture, size_t first, size_t count, float* values) {
-    const std::vector<Layer> layers = layers_in(picture);
+    const std::vector<PresentLayer> layers = layers_in(picture);
     const size_t stride = channels_in(picture).size();
     in_parts(count, [&](size_t begin, size_t end) {
         float* to = values + begin * stride;
         for (size_t pixel = first + begin; pixel < first + end; ++pixel) {
-            for (const Layer& layer : layers) {
+            for (const PresentLayer& layer : layers) {
                 const size_t channels = layer.channels->size();
                 to = std::copy_n(layer.image->data.data() + pixel * channels, channels, to);
             }

@@ -37,6 +37,14 @@ std::string reason_of(int code, const fs::path& target) {
     return code == EFBIG ? text + " (a limit of the file system or of the process)" : text;
 }
 
+/// The page cache costs a copy, and on a machine that is short of memory much more, before the disk begins. A render has
+/// no use for what it has written.
+bool goes_past_cache(std::uint64_t place, std::span<const unsigned char> bytes) {
+    constexpr std::size_t least = std::size_t{1} << 20U;
+    return bytes.size() >= least && bytes.size() % sink_page == 0 && place % sink_page == 0 &&
+           reinterpret_cast<std::uintptr_t>(bytes.data()) % sink_page == 0;
+}
+
 /// Some file systems have no fsync; there nothing is left to wait for.
 bool failed_to_sync(int descriptor) {
     return ::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOSYS && errno != ENOTSUP;
@@ -73,19 +81,23 @@ TemporaryFile::TemporaryFile(fs::path target) : target_(std::move(target)) {
             descriptor_ = -1;
         }
     }
+    direct_ = ::open(name_.c_str(), O_WRONLY | O_DIRECT | O_CLOEXEC);
 }
 
 TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
     : target_(std::move(other.target_)),
       name_(std::exchange(other.name_, fs::path())),
-      descriptor_(std::exchange(other.descriptor_, -1)) {}
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      direct_(std::exchange(other.direct_, -1)) {}
 
 TemporaryFile::~TemporaryFile() {
     if (!name_.empty()) {
         ::unlink(name_.c_str());
     }
-    if (descriptor_ >= 0) {
-        ::close(descriptor_);
+    for (const int open : {descriptor_, direct_}) {
+        if (open >= 0) {
+            ::close(open);
+        }
     }
 }
 
@@ -96,7 +108,13 @@ void TemporaryFile::write(std::string_view bytes) {
 void TemporaryFile::write_at(std::uint64_t place, std::span<const unsigned char> bytes) {
     while (!bytes.empty()) {
         const auto at = static_cast<off_t>(place);
-        const ssize_t written = ::pwrite(descriptor_, bytes.data(), std::min(bytes.size(), longest_write), at);
+        const std::size_t count = std::min(bytes.size(), longest_write);
+        ssize_t written = direct_ >= 0 && goes_past_cache(place, bytes.first(count))
+                              ? ::pwrite(direct_, bytes.data(), count, at)
+                              : -2;
+        if (written == -2 || (written < 0 && errno == EINVAL)) {  // or where pages are larger there
+            written = ::pwrite(descriptor_, bytes.data(), count, at);
+        }
         if (written < 0 && errno == EINTR) {
             continue;
         }

@@ -39,6 +39,7 @@ private:
     std::filesystem::path target_;
     std::filesystem::path name_;  // empty once published
     int descriptor_ = -1;
+    int direct_ = -1;  // past the page cache; -1 where the file system has no such thing
 };
 
 /// Throws the Error for a file that cannot be written.

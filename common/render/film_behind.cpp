@@ -7,6 +7,7 @@
 #include <exception>
 #include <fstream>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <stdexcept>
 #include <vector>
@@ -41,6 +42,11 @@ static_assert(sizeof(Group) == 16 && offsetof(Footer, digest) == 16 && sizeof(Fo
 
 std::size_t groups_of(std::size_t pixels) {
     return (pixels + group_pixels - 1) / group_pixels;
+}
+
+/// Every group begins at a page, so that it can be written past the page cache.
+std::size_t whole_pages(std::size_t bytes) {
+    return (bytes + sink_page - 1) / sink_page * sink_page;
 }
 
 template <class T>
@@ -108,25 +114,44 @@ Film film_of(const Footer& footer, std::uint64_t file_bytes) {
 void write_film_behind(const Film& film, TemporaryFile& file) {
     const std::size_t pixels = film.pixels.size();
     std::vector<Group> groups(groups_of(pixels));
-    // A round of groups is packed, then written: only then is it known where each goes.
-    std::vector<std::vector<unsigned char>> round(std::min<std::size_t>(4 * machine_threads(), groups.size()),
-                                                  std::vector<unsigned char>(most_packed_bytes(film, group_pixels)));
-    std::uint64_t end = file.size();
-    for (std::size_t first = 0; first < groups.size(); first += round.size()) {
+    // A round of groups is packed, then written, because only then it is known where each goes. The disk writes one round
+    // while the next is packed.
+    const std::size_t most = whole_pages(most_packed_bytes(film, group_pixels));
+    std::array<std::vector<Pages>, 2> rounds;
+    for (std::vector<Pages>& round : rounds) {
+        round.resize(std::min<std::size_t>(4 * machine_threads(), groups.size()));
+        for (Pages& pages : round) {
+            pages = make_pages(most);
+        }
+    }
+    std::vector<std::uint64_t> places(groups.size());
+    std::uint64_t end = whole_pages(file.size());
+    std::future<void> writing;  // where no thread can be started, `get` does the work
+    for (std::size_t first = 0, turn = 0; first < groups.size(); first += rounds[turn].size(), turn = 1 - turn) {
+        const std::vector<Pages>& round = rounds[turn];
         const std::size_t count = std::min(round.size(), groups.size() - first);
         for_each_on_all_cores(count, [&](std::size_t i) {
             const std::size_t begin = (first + i) * group_pixels;
-            const std::size_t bytes = pack_pixels(film, begin, std::min(group_pixels, pixels - begin), round[i]);
-            groups[first + i] = {bytes, digest_of_many(std::span(round[i]).first(bytes))};
+            const std::span<unsigned char> to(round[i].get(), most);
+            const std::size_t bytes = pack_pixels(film, begin, std::min(group_pixels, pixels - begin), to);
+            std::fill_n(&to[bytes], whole_pages(bytes) - bytes, static_cast<unsigned char>(0));
+            groups[first + i] = {bytes, digest_of_many(to.first(bytes))};
         });
-        std::vector<std::uint64_t> places;
-        for (std::size_t i = 0; i < count; ++i) {
-            places.push_back(end);
-            end += groups[first + i].bytes;
+        for (std::size_t i = first; i < first + count; ++i) {
+            places[i] = end;
+            end += whole_pages(groups[i].bytes);
         }
-        for_each_on_all_cores(count, [&](std::size_t i) {
-            file.write_at(places[i], std::span(round[i]).first(groups[first + i].bytes));
+        if (writing.valid()) {
+            writing.get();
+        }
+        writing = std::async([&file, &groups, &places, &round, first, count] {
+            for_each_on_all_cores(count, [&](std::size_t i) {
+                file.write_at(places[first + i], {round[i].get(), whole_pages(groups[first + i].bytes)});
+            });
         });
+    }
+    if (writing.valid()) {
+        writing.get();
     }
     Footer footer;
     footer.width = static_cast<std::uint32_t>(film.width);
@@ -161,10 +186,10 @@ Film read_film_behind(const std::filesystem::path& path) {
     std::vector<std::uint64_t> places(groups.size());
     std::uint64_t end = table;
     for (std::size_t i = groups.size(); i-- > 0;) {
-        if (groups[i].bytes > end) {
+        if (groups[i].bytes > end || whole_pages(groups[i].bytes) > end) {
             fail_damaged();
         }
-        places[i] = end -= groups[i].bytes;
+        places[i] = end -= whole_pages(groups[i].bytes);
     }
     for_each_on_all_cores(groups.size(), [&](std::size_t i) {
         thread_local std::vector<unsigned char> bytes;

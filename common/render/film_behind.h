@@ -1,8 +1,8 @@
 // A film behind the picture in an EXR file, where readers of pictures do not look: they find all rows by a table at the
 // file's beginning. The film's sums are what is gone on from and merged; the picture can be made from them.
 //
-// After the picture come groups of pixels (film_blocks.h), a table with size and digest of each group, and a footer of
-// fixed size, with which a reader begins. All numbers are little-endian.
+// After the picture come groups of pixels (film_blocks.h), each at a multiple of 4096 bytes, a table with size and digest
+// of each group, and a footer of fixed size, with which a reader begins. All numbers are little-endian.
 #pragma once
 
 #include <filesystem>

@@ -45,6 +45,7 @@ public:
     bool wait_for_error_text(const std::string& text, double seconds);
     void send(int signal);
     ProcessResult finish();
+    int id() const { return child_; }
 
 private:
     bool ended();

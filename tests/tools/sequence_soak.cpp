@@ -81,7 +81,9 @@ bool can_open(const std::string& backend) {
 /// Bytes a frame by which the memory grows over the last three quarters of a sequence.
 MemoryUse growth_a_frame(const std::string& backend, const std::string& integrator, int frames) {
     const TemporaryFolder folder;
-    Looks looks{.first = frames / 4, .last = frames - 1};
+    Looks looks;
+    looks.first = frames / 4;
+    looks.last = frames - 1;
     app::replace_renderers([&](const Scene& scene, const PackedScene& packed, const RenderRequest& request) {
         return std::make_unique<WatchedRenderer>(app::open_renderer(scene, packed, request), looks);
     });

@@ -99,7 +99,8 @@ void add_memory_option(CLI::App& command, std::uint64_t& limit) {
     command
         .add_option_function<std::string>(
             "--memory-limit", [&limit](const std::string& text) { limit = memory_from_text(text); },
-            "Memory that an input file may ask for, such as 500M or 2G; default: a quarter of the machine's")
+            "Memory that an input file may ask for, such as 500M or 2G; default: a quarter of the machine's, or of its "
+            "container's")
         ->check(CLI::Validator(problem, ""))
         ->type_name("SIZE");
 }

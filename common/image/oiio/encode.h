@@ -1,12 +1,11 @@
-// Writing picture files with OpenImageIO. It never opens a file itself: every failed write to the disk is seen, whatever
-// the format's library checks.
+// Writing picture files with OpenImageIO. They are encoded in memory, because then every failed write to the disk is
+// seen, whatever the format's library checks.
 #pragma once
 
 #include "image/image_library.h"
 
 namespace diptych::core {
 
-void encode_exr(const ExrPicture& picture, ByteSink& sink);
 ImageLibrary::Bytes hdr_bytes(const Image& image);
 ImageLibrary::Bytes png_bytes(const ByteImage& image, bool srgb);
 

@@ -22,7 +22,6 @@ public:
         const std::string formats = "," + std::string(OIIO::get_string_attribute("input_format_list")) + ",";
         return formats.find("," + format + ",") != std::string::npos;
     }
-    void encode_exr(const ExrPicture& picture, ByteSink& sink) const override { core::encode_exr(picture, sink); }
     Bytes encode_hdr(const Image& image) const override { return hdr_bytes(image); }
     Bytes encode_png(const ByteImage& image, bool srgb) const override { return png_bytes(image, srgb); }
 };
