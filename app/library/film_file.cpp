@@ -104,9 +104,15 @@ void Film::save(const std::string& path, const SaveOptions& options) const {
         if (options.sums && core::image_format(path) != core::ImageFormat::Exr) {
             throw Error(fmt::format("{}: cannot hold the sums of its samples; only .exr can", path));
         }
-        core::LayeredImage layers = data_->developed;
-        layers.metadata = metadata_of(*data_, options.sums);
-        core::save_layers(layers, data_->film, core::shown_by(layers.metadata, options.sums), path);
+        const core::Metadata metadata = metadata_of(*data_, options.sums);
+        const core::RenderRequest shown = core::shown_by(metadata, options.sums);
+        if (has_sums()) {
+            core::write_film(data_->film, metadata, shown, path);
+            return;
+        }
+        core::LayeredImage picture = data_->developed;
+        picture.metadata = metadata;
+        core::write_picture(picture, shown, path);
     });
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 
-#include "image/layered_image.h"
 #include "image/tonemap_image.h"
 #include "render/film_behind.h"
 
@@ -39,6 +38,21 @@ void write_film(const Film& film, const std::map<std::string, std::string>& meta
         break;
     case ImageFormat::Hdr:
         write_hdr(path, color());
+        break;
+    }
+}
+
+void write_picture(const LayeredImage& picture, const RenderRequest& request, const std::string& path) {
+    switch (image_format(path)) {
+    case ImageFormat::Exr:
+        write_exr(path, picture);
+        break;
+    case ImageFormat::Png:
+        write_png(path, tonemapped(picture.color, tonemap_from_name(request.tonemap),
+                                   static_cast<float>(request.exposure)));
+        break;
+    case ImageFormat::Hdr:
+        write_hdr(path, picture.color);
         break;
     }
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "image/layered_image.h"
 #include "render/film.h"
 #include "render/film_file.h"
 #include "render/metadata.h"
@@ -18,7 +19,10 @@ namespace diptych::core {
 void write_film(const Film& film, const std::map<std::string, std::string>& metadata, const RenderRequest& request,
                 const std::string& path);
 
-/// The same with the metadata of request and outcome, as request.output. Throws Error.
+/// The same for a picture that was read from a file without its film.
+void write_picture(const LayeredImage& picture, const RenderRequest& request, const std::string& path);
+
+/// Writes a film with the metadata of request and outcome, as request.output. Throws Error.
 void save_film(const Film& film, const RenderRequest& request, const RenderOutcome& outcome);
 
 /// How a picture's metadata say that it is shown, as a request for write_film.

@@ -147,7 +147,7 @@ TEST_CASE("A rank of another picture is left out, and one that gives up too") {
     CHECK(head.last(1).kind == Kind::stop);
 }
 
-TEST_CASE("Of what ails all ranks, rank 0 alone speaks; what ails one is named when rank 0 begins") {
+TEST_CASE("Of what ails all ranks, rank 0 alone speaks, and what ails one is named when rank 0 begins") {
     Head head;
     head.tell(1, Tell::gave_up, WordWriter().put(std::string("no device")).take());
     CHECK(head.warnings.empty());

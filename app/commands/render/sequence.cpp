@@ -158,7 +158,6 @@ int render_sequence(const Scene& scene, const RenderRequest& request, const Sequ
                                    "begins that many frames earlier instead",
                                    start, next - 1));
     }
-    LossGuard guard(options.on_device_lost);
     if (options.run != nullptr) {
         SampleRanges unfinished_frames;
         for (std::uint32_t frame = first; frame < request.frames; ++frame) {
