@@ -43,7 +43,8 @@ void Coordinator::start(Work work, double now) {
 /// A rank that reads another file than rank 0 would spoil the picture.
 void Coordinator::check_picture(int rank) {
     if (phase_ != Phase::waiting && at(rank).ready && !at(rank).retired && at(rank).ready->picture != work_.picture) {
-        hooks_.warn(fmt::format("{} renders another picture: its scene or its program differs from rank 0's; it is left out",
+        hooks_.warn(fmt::format("{} renders another picture: its scene or its program differs from rank 0's; it is left "
+                                "out",
                                 name(rank)));
         at(rank).retired = true;
     }
@@ -53,7 +54,8 @@ void Coordinator::handle(const Message& message, double now) {
     Rank& rank = at(message.from);
     rank.heard = now;
     if (rank.gone) {
-        order(message.from, {.kind = Order::Kind::end, .code = exit_no_rank, .alone = true});  // its work is others' already
+        // Its work is others' already.
+        order(message.from, {.kind = Order::Kind::end, .code = exit_no_rank, .alone = true});
         return;
     }
     WordReader reader(message.words);
@@ -128,8 +130,8 @@ void Coordinator::lose(int rank, const std::string& how) {
     }
     hooks_.warn(had == 0 && safe.empty()
                     ? fmt::format("{}{}; the others render without it", name(rank), how)
-                    : fmt::format("{}{}; {} of its {} {} are on the disk, and the rest is rendered again", name(rank), how,
-                                  safe.count(), had, work_.unit));
+                    : fmt::format("{}{}; {} of its {} {} are on the disk, and the rest is rendered again", name(rank),
+                                  how, safe.count(), had, work_.unit));
     if (was_merging && phase_ == Phase::merging) {
         for (const int other : merging_) {
             at(other).merges = false;
@@ -160,7 +162,8 @@ void Coordinator::stop(int code) {
 }
 
 void Coordinator::check_saved() {
-    const bool all = std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& r) { return r.saved || r.gone || r.retired; });
+    const bool all =
+        std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& r) { return r.saved || r.gone || r.retired; });
     if (phase_ == Phase::stopping && all) {
         order(0, {.kind = Order::Kind::finished, .code = stop_code_});
     }

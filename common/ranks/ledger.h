@@ -21,7 +21,8 @@ class Ledger {
 public:
     Ledger(SampleRanges wanted, int ranks, LedgerLimits limits = {});
 
-    /// A block for a rank that has none; none where there is nothing left to deal out. `now` counts seconds from the start.
+    /// A block for a rank that has none; none where there is nothing left to deal out. `now` counts seconds from the
+    /// start.
     std::optional<SampleRange> deal(int rank, double now);
 
     /// A rank has rendered its block.
