@@ -117,7 +117,13 @@ TEST_CASE("with a viewer that reads 4 kB in half a second, --time 8 ends within 
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const SlowViewer viewer;
-    CHECK(seconds_of_render(folder, scene, "8", &viewer) < 9);
+    const double alone = seconds_of_render(folder, scene, "8", nullptr);
+    const double watched = seconds_of_render(folder, scene, "8", &viewer);
+    INFO(alone << " s alone, " << watched << " s with the viewer");
+    CHECK(watched < alone + 1);
+    if (alone < 8.4) {  // else the machine is busy with other things
+        CHECK(watched < 9);
+    }
 }
 
 TEST_CASE("a viewer that reads 4 kB in half a second does not hold up Ctrl-C", "[app]") {
