@@ -16,7 +16,9 @@ template <typename Vector, typename Number>
 std::vector<Vector> pack(const std::vector<Number>& numbers) {
     static_assert(sizeof(Vector) == Vector::length() * sizeof(Number));
     std::vector<Vector> vectors(numbers.size() / static_cast<std::size_t>(Vector::length()));
-    std::memcpy(static_cast<void*>(vectors.data()), numbers.data(), numbers.size() * sizeof(Number));
+    if (!numbers.empty()) {  // memcpy takes no null pointer
+        std::memcpy(static_cast<void*>(vectors.data()), numbers.data(), numbers.size() * sizeof(Number));
+    }
     return vectors;
 }
 

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string_view>
 
+#include "image/size_claim.h"
+
 namespace diptych::core {
 namespace {
 
@@ -49,8 +51,25 @@ constexpr std::array<FixedType, 24> fixed_types = {
      {"rational", 8},   {"tiledesc", 9}, {"timecode", 8},        {"v2i", 8},         {"v2f", 8},
      {"v2d", 16},       {"v3i", 12},     {"v3f", 12},            {"v3d", 24}}};
 
+/// What the pixels of a part claim. OpenEXR allocates a block of rows of all channels when it opens the part.
+struct Claim {
+    std::int64_t width = 0;
+    std::int64_t height = 0;
+    std::int64_t channels = 0;
+    std::int64_t block_rows = 1;
+
+    /// Empty where a file of that size may hold them.
+    std::string problem(std::uint64_t file_bytes) const {
+        const bool complete = width != 0 && channels != 0;
+        return complete ? size_claim_problem(width, std::max(height, block_rows), channels, file_bytes) : "";
+    }
+};
+
+/// Rows of a block, by the number of the compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
+constexpr std::array<std::int64_t, 10> rows_of_compression = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+
 /// Bytes of a list of channels, to the empty name that ends it: each is a name and 16 bytes.
-std::optional<std::uint64_t> channel_list_bytes(std::ifstream& file) {
+std::optional<std::uint64_t> channel_list_bytes(std::ifstream& file, Claim& claim) {
     constexpr std::uint64_t after_name = 16;
     std::uint64_t bytes = 0;
     while (const std::optional<std::string> name = take_name(file)) {
@@ -58,10 +77,21 @@ std::optional<std::uint64_t> channel_list_bytes(std::ifstream& file) {
         if (name->empty()) {
             return bytes;
         }
+        ++claim.channels;
         bytes += after_name;
         file.seekg(after_name, std::ios::cur);
     }
     return std::nullopt;
+}
+
+/// The corners of a box, both within it.
+void read_window(std::ifstream& file, Claim& claim) {
+    std::array<std::int64_t, 4> corners{};
+    for (std::int64_t& corner : corners) {
+        corner = static_cast<std::int32_t>(take_number(file).value_or(0));
+    }
+    claim.width = corners[2] - corners[0] + 1;
+    claim.height = corners[3] - corners[1] + 1;
 }
 
 /// Bytes of the strings, each after its length, that begin within the first `limit` bytes.
@@ -91,14 +121,14 @@ std::optional<std::uint64_t> preview_bytes(std::ifstream& file) {
 
 /// Whether a value of this type, which begins here, has that many bytes. OpenEXR reads some types by their contents,
 /// and goes on after them, not after the bytes that the attribute claims.
-bool is_size_of(std::string_view type, std::uint32_t bytes, std::ifstream& file) {
+bool is_size_of(std::string_view type, std::uint32_t bytes, std::ifstream& file, Claim& claim) {
     const auto fixed = std::find_if(fixed_types.begin(), fixed_types.end(),
                                     [&](const FixedType& known) { return known.name == type; });
     if (fixed != fixed_types.end()) {
         return bytes == fixed->bytes;
     }
     if (type == "chlist") {
-        return channel_list_bytes(file) == bytes;
+        return channel_list_bytes(file, claim) == bytes;
     }
     if (type == "stringvector") {
         return string_list_bytes(file, bytes) == bytes;
@@ -116,6 +146,7 @@ std::string exr_header_problem(const std::filesystem::path& path) {
     const std::uint64_t size = std::filesystem::file_size(path);
     const std::optional<std::uint32_t> version = take_number(file);
     bool first_of_header = true;
+    Claim claim;
     // Whatever else is wrong with the headers is left to OpenEXR, which says so.
     while (version && file) {
         const std::optional<std::string> name = take_name(file);
@@ -124,6 +155,7 @@ std::string exr_header_problem(const std::filesystem::path& path) {
         }
         first_of_header = name->empty();
         if (first_of_header) {
+            claim = {};
             continue;
         }
         const std::optional<std::string> type = take_name(file);
@@ -135,11 +167,21 @@ std::string exr_header_problem(const std::filesystem::path& path) {
         if (*bytes > size - at) {
             return "its attribute '" + *name + "' claims " + std::to_string(*bytes) + " bytes, more than the file has";
         }
-        if (!is_size_of(*type, *bytes, file)) {
+        if (!is_size_of(*type, *bytes, file, claim)) {
             return "its attribute '" + *name + "' of type '" + *type + "' does not have the " +
                    std::to_string(*bytes) + " bytes that it claims";
         }
         file.clear();
+        file.seekg(static_cast<std::streamoff>(at));
+        if (*name == "dataWindow") {
+            read_window(file, claim);
+        } else if (*name == "compression") {
+            const auto kind = static_cast<std::size_t>(file.get());
+            claim.block_rows = kind < rows_of_compression.size() ? rows_of_compression[kind] : 1;
+        }
+        if (const std::string problem = claim.problem(size); !problem.empty()) {
+            return problem;
+        }
         file.seekg(static_cast<std::streamoff>(at + *bytes));
     }
     return "";

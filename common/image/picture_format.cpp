@@ -1,6 +1,8 @@
 #include "image/picture_format.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -43,7 +45,14 @@ std::string picture_format(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     file.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
     const std::string format = picture_format(std::span(bytes).first(static_cast<std::size_t>(file.gcount())));
-    return format.empty() ? path.extension().string() : format;
+    if (!format.empty()) {
+        return format;
+    }
+    std::string extension = path.extension().string();
+    extension.erase(0, 1);
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
 }
 
 }  // namespace diptych::core

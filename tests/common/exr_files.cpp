@@ -151,6 +151,23 @@ TEST_CASE("an attribute of an EXR claims as many bytes as its value has", "[imag
     }
 }
 
+TEST_CASE("an EXR is refused before a block of its rows is allocated that it cannot hold", "[image]") {
+    const TemporaryFolder folder;
+    std::string bytes = exr_bytes({constant_part(whole, {{"B", 0.5F}, {"G", 0.5F}, {"R", 0.5F}})});
+    const auto set = [&](const std::string& attribute, std::size_t at, const std::string& value) {
+        const std::size_t begin = bytes.find(attribute);
+        REQUIRE(begin != std::string::npos);
+        bytes.replace(begin + attribute.size() + 4 + at, value.size(), value);
+        write_file_atomically(folder / "a.exr", bytes);
+        return exr_header_problem(folder / "a.exr");
+    };
+    const std::string window("dataWindow\0box2i\0", 17);
+    const std::string compression("compression\0compression\0", 24);
+    CHECK(set(window, 8, std::string("\xff\xff\1\0\0\0\0\0", 8)).empty());  // a row of 131072 pixels, 1.5 MB
+    CHECK(contains(set(compression, 0, "\x9"), "cannot hold the 131072x256 pixels"));
+    CHECK(contains(set(window, 8, std::string("\0\0\x0f\0", 4)), "131072 a side"));
+}
+
 TEST_CASE("a list of strings or a preview in an EXR has the size that it claims", "[image]") {
     const TemporaryFolder folder;
     const std::string good = exr_bytes({constant_part(whole, {{"Y", 0.5F}})});

@@ -85,14 +85,31 @@ OIIO::ImageSpec unassociated_alpha() {
     return config;
 }
 
+/// Whether there is a reader for a format, or for files with that extension. ImageInput::create would ask all readers
+/// whether they know a file of that name.
+bool is_known(const std::string& format) {
+    // As in "tiff:tif,tiff,tx,env;jpeg:jpg,jpe".
+    const std::string list = OIIO::get_string_attribute("extension_list");
+    const auto ends_name = [](char c) { return c == ':' || c == ',' || c == ';'; };
+    for (std::size_t at = list.find(format); at != std::string::npos && !format.empty(); at = list.find(format, at + 1)) {
+        const std::size_t end = at + format.size();
+        if ((at == 0 || ends_name(list[at - 1])) && (end == list.size() || ends_name(list[end]))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// Opens by one reader. ImageInput::open would hand a file that its reader refuses to all others, and so a damaged
 /// picture to decoders of video and of medical images.
 std::unique_ptr<OIIO::ImageInput> open_by(const std::string& format, const std::string& name,
                                           const OIIO::ImageSpec& config) {
+    if (!is_known(format)) {
+        fail_by_library("neither its contents nor its extension are those of a known picture format");
+    }
     std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
     if (!input) {
-        OIIO::geterror();  // clears it: it takes the extension for the name of a file
-        fail_by_library("neither its contents nor its extension are those of a known picture format");
+        fail_by_library(OIIO::geterror());
     }
     OIIO::ImageSpec spec;
     if (!input->open(name, spec, config)) {
