@@ -36,15 +36,21 @@ bool is_idle(const std::string& name, const Metadata& metadata) {
 
 }  // namespace
 
+bool take_film_entries(Metadata& metadata) {
+    const bool behind = metadata.erase(film_behind_entry) > 0;
+    const bool in_channels = metadata.erase("sums_digest") > 0;  // by earlier versions
+    return behind || in_channels;
+}
+
 std::optional<FilmFile> read_film(const std::filesystem::path& path) {
     FilmFile file;
     file.metadata = read_metadata(path);
-    const bool behind = file.metadata.erase(film_behind_entry) > 0;
+    const bool behind = file.metadata.count(film_behind_entry) > 0;
+    take_film_entries(file.metadata);
     const std::optional<WordChannels> words = behind ? std::nullopt : read_words(path);
     if (!behind && !words) {
         return std::nullopt;
     }
-    file.metadata.erase("sums_digest");  // of the file, not of the picture
     try {
         file.samples = SampleRanges::parse(entry(file.metadata, "samples"));
         file.film = behind ? read_film_behind(path)

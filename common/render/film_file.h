@@ -23,6 +23,10 @@ struct FilmFile {
 /// file and reason.
 std::optional<FilmFile> read_film(const std::filesystem::path& path);
 
+/// Takes out the entries of a file's metadata that tell where its film lies. They are of the file, not of the picture.
+/// Returns whether the file has a film.
+bool take_film_entries(Metadata& metadata);
+
 /// The first setting that differs between two pictures' metadata so that their samples are not of one picture, as
 /// "max_depth is 8 and 4"; empty where there is none. The machine, the limits and the display are no such settings, and
 /// neither is the panel: both take the same samples.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -123,6 +124,24 @@ std::vector<std::string> part_files(const TemporaryFolder& folder) {
         }                                                                                                              \
     } while (false)
 
+namespace {
+
+template <typename T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+bool same_sums(const std::string& a, const std::string& b) {
+    const std::optional<FilmFile> file_a = read_film(a);
+    const std::optional<FilmFile> file_b = read_film(b);
+    REQUIRE(file_a);
+    REQUIRE(file_b);
+    return same_bytes(file_a->film.pixels, file_b->film.pixels) && same_bytes(file_a->film.moments, file_b->film.moments) &&
+           same_bytes(file_a->film.first_hits, file_b->film.first_hits);
+}
+
+}  // namespace
+
 TEST_CASE("one, two and three ranks give the sums and the picture of one process, to the bit", "[app]") {
     NEED_MPI();
     const std::string backend = GENERATE("cpu", "vulkan", "oracle");
@@ -144,8 +163,7 @@ TEST_CASE("one, two and three ranks give the sums and the picture of one process
         INFO(result.err);
         REQUIRE(result.exit_code == 0);
         check_as_by_one_process(out, one);
-        CHECK(read_words(out)->names == read_words(one)->names);
-        CHECK(read_words(out)->data == read_words(one)->data);
+        CHECK(same_sums(out, one));
         const auto json = nlohmann::json::parse(result.out);  // one line, of rank 0
         if (ranks > 1) {
             CHECK(json.at("ranks") == ranks);

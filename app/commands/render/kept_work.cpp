@@ -182,7 +182,7 @@ KeptWork find_kept_work(Session& session, const RenderRequest& request, const Wo
     std::vector<Candidate> candidates;
     for (const std::string& path : candidate_paths(request, files)) {
         Metadata found = read_metadata(path);
-        const bool has_sums = found.erase("sums_digest") > 0;
+        const bool has_sums = take_film_entries(found);
         if (!has_sums && path == part_path(request.output) && path != files.resume) {
             continue;  // a picture that cannot be gone on with
         }
