@@ -83,17 +83,14 @@ void check_as_by_one_process(const std::string& a, const std::string& b) {
 }
 
 /// A picture of a second or two, one thread a rank.
-Arguments long_render(const std::string& scene) {
-    return {"render", scene, "--size", "24", "--spp", "6000", "--threads", "1", "-o"};
+Arguments long_render(const std::string& scene, int spp = 6000) {
+    return {"render", scene, "--size", "24", "--spp", std::to_string(spp), "--threads", "1", "-o"};
 }
 
-void check_long_render(const std::string& scene, const std::string& path) {
-    static const TemporaryFolder folder;
-    static const std::string one = [&] {
-        const std::string out = folder.file("one.exr");
-        REQUIRE(run_diptych(folder, {"render", scene, "--size", "24", "--spp", "6000", "-o", out}).exit_code == 0);
-        return out;
-    }();
+void check_long_render(const std::string& scene, const std::string& path, int spp = 6000) {
+    const TemporaryFolder folder;
+    const std::string one = folder.file("one.exr");
+    REQUIRE(run_diptych(folder, {"render", scene, "--size", "24", "--spp", std::to_string(spp), "-o", one}).exit_code == 0);
     check_as_by_one_process(path, one);
 }
 
@@ -173,15 +170,14 @@ TEST_CASE("one, two and three ranks give the sums and the picture of one process
     CHECK(part_files(folder).empty());
 }
 
-TEST_CASE("a rank that is killed is named, and its samples are not lost", "[app]") {
-    NEED_MPI();
+namespace {
+
+void kill_a_rank(bool recovers, int spp) {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const std::string out = folder.file("out.exr");
-    const Arguments render = long_render(scene);
+    const Arguments render = long_render(scene, spp);
     const Arguments checkpoint = {"--checkpoint", folder.file("c.exr"), "--every", "0.3"};
-    const bool recovers = GENERATE(false, true);
-    CAPTURE(recovers);
     Process process(folder, on_ranks(3, with(with(render, {out}), checkpoint), recovers ? Arguments{"--enable-recovery"} : Arguments{}),
                     mpi_environment, mpirun);
     const Arguments parts = {folder.file("c.rank0.part.exr"), folder.file("c.rank1.part.exr"), folder.file("c.rank2.part.exr")};
@@ -211,20 +207,32 @@ TEST_CASE("a rank that is killed is named, and its samples are not lost", "[app]
         CHECK(nlohmann::json::parse(rest.out).at("kept_spp") >= kept);
     }
     CHECK(part_files(folder).empty());
-    check_long_render(scene, out);
+    check_long_render(scene, out, spp);
 }
 
-TEST_CASE("a signal to a rank stops all ranks, and the same command goes on from their parts", "[app]") {
+}  // namespace
+
+TEST_CASE("a rank that is killed is named, and the others finish its work", "[app]") {
     NEED_MPI();
+    kill_a_rank(true, 6000);
+}
+
+// mpirun ends the others after a second, by which a fast machine must not be done.
+TEST_CASE("a rank that is killed is named, and one process goes on from what all had", "[app][nightly]") {
+    NEED_MPI();
+    kill_a_rank(false, 60000);
+}
+
+namespace {
+
+/// Interrupts a render on two ranks, and goes on with three.
+void stop_and_go_on(bool whole_job, int spp) {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const std::string out = folder.file("out.exr");
-    const Arguments render = long_render(scene);
-    // mpirun itself passes SIGINT on as SIGTERM, after a second.
-    const bool whole_job = GENERATE(false, true);
-    CAPTURE(whole_job);
+    const Arguments render = long_render(scene, spp);
     Process process(folder, on_ranks(2, with(render, {out})), mpi_environment, mpirun);
-    REQUIRE(process.wait_for_error_text("/6000 spp", 30));
+    REQUIRE(process.wait_for_error_text("/" + std::to_string(spp) + " spp", 30));
     if (whole_job) {
         process.send(SIGINT);
     } else {
@@ -245,7 +253,20 @@ TEST_CASE("a signal to a rank stops all ranks, and the same command goes on from
     REQUIRE(rest.exit_code == 0);
     CHECK(nlohmann::json::parse(rest.out).at("kept_spp") > 0);
     CHECK(part_files(folder).empty());
-    check_long_render(scene, out);
+    check_long_render(scene, out, spp);
+}
+
+}  // namespace
+
+TEST_CASE("a signal to a rank stops all ranks, and the same command goes on from their parts", "[app]") {
+    NEED_MPI();
+    stop_and_go_on(false, 6000);
+}
+
+// mpirun itself passes SIGINT on as SIGTERM, after a second, by which a fast machine must not be done.
+TEST_CASE("a signal to mpirun stops all ranks, and the same command goes on from their parts", "[app][nightly]") {
+    NEED_MPI();
+    stop_and_go_on(true, 60000);
 }
 
 TEST_CASE("parts of ranks merge, and are gone on from by --resume", "[app]") {

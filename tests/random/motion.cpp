@@ -180,7 +180,7 @@ TEST_CASE("A moving random scene is read back as it was drawn, at every frame") 
     }
 }
 
-TEST_CASE("Shrinking a scene that moves leaves the channel that fails") {
+TEST_CASE("Shrinking a scene that moves leaves the channel that fails", "[nightly]") {
     int shrunk = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const RandomScene random = make_moving_random_scene(seed);
