@@ -260,7 +260,7 @@ void stop_and_go_on(bool whole_job, int spp) {
 
 TEST_CASE("a signal to a rank stops all ranks, and the same command goes on from their parts", "[app]") {
     NEED_MPI();
-    stop_and_go_on(false, 6000);
+    stop_and_go_on(false, 16000);
 }
 
 // mpirun itself passes SIGINT on as SIGTERM, after a second, by which a fast machine must not be done.
