@@ -43,6 +43,9 @@ void spread_channels(const std::vector<std::uint8_t>& from, std::size_t channels
 
 /// The first one to four channels.
 ByteImage decode(const std::string& format, const Bytes& bytes, MemoryBudget& budget) {
+    if (const std::string problem = opening_problem(format, bytes, bytes.size()); !problem.empty()) {
+        throw Error(problem);
+    }
     const std::unique_ptr<PictureFile> file = image_library().open(format, bytes);
     const PictureHeader& header = file->headers().front();
     const auto [x, y, width, height] = header.stored;

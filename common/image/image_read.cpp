@@ -121,7 +121,11 @@ std::unique_ptr<PictureFile> open_by_library(const fs::path& path) {
     if (const std::string problem = exr_header_problem(path); !problem.empty()) {
         fail(problem);
     }
-    return image_library().open(picture_format(path), path);
+    const std::string format = picture_format(path);
+    if (const std::string problem = opening_problem(format, beginning_of(path), fs::file_size(path)); !problem.empty()) {
+        fail(problem);
+    }
+    return image_library().open(format, path);
 }
 
 RawImage read_by_library(const fs::path& path, const std::string& layer, const std::vector<std::string>& beside,

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "image/size_claim.h"
+
 namespace diptych::core {
 namespace {
 
@@ -40,11 +42,25 @@ std::string picture_format(std::span<const std::uint8_t> beginning) {
     return has(beginning, "RIFF", 0) && has(beginning, "WEBP", 8) ? "webp" : "";
 }
 
-std::string picture_format(const std::filesystem::path& path) {
-    std::array<std::uint8_t, 16> bytes{};
+// After six bytes of signature, width and height of the canvas, little-endian (GIF89a, section 18).
+std::string opening_problem(const std::string& format, std::span<const std::uint8_t> beginning, std::size_t file_bytes) {
+    if (format != "gif" || beginning.size() < 10) {
+        return "";
+    }
+    const auto number = [&](std::size_t at) { return beginning[at] + 256 * beginning[at + 1]; };
+    return size_claim_problem(number(6), number(8), 4, file_bytes);
+}
+
+std::vector<std::uint8_t> beginning_of(const std::filesystem::path& path) {
+    std::vector<std::uint8_t> bytes(16);
     std::ifstream file(path, std::ios::binary);
-    file.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
-    const std::string format = picture_format(std::span(bytes).first(static_cast<std::size_t>(file.gcount())));
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    return bytes;
+}
+
+std::string picture_format(const std::filesystem::path& path) {
+    const std::string format = picture_format(beginning_of(path));
     if (!format.empty()) {
         return format;
     }

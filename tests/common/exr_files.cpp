@@ -205,6 +205,8 @@ TEST_CASE("a picture is read by the reader of its format alone", "[image]") {
         CHECK(contains(refusal(name, bytes), "version"));
     }
     CHECK(contains(refusal("a.unknown", "no picture"), "known picture format"));
+    // Its reader allocates the canvas when it opens the file.
+    CHECK(contains(refusal("a.gif", std::string("GIF89a\0\x20\0\x20\0\0\0", 13)), "cannot hold the 8192x8192 pixels"));
 }
 
 TEST_CASE("names in an EXR do not break the line that refuses it", "[image]") {
