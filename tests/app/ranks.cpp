@@ -31,7 +31,9 @@ bool has_mpi() {
 }
 
 /// Debian's mpirun does not run as root, nor more ranks than cores, unless it is told to.
-const Arguments mpi_environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+// Open MPI 4 asks for ssh even where no other machine is named, and ends without it. `true` is never run.
+const Arguments mpi_environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                                   "OMPI_MCA_plm_rsh_agent=true"};
 
 Arguments on_ranks(int ranks, const Arguments& arguments, const Arguments& options = {}) {
     Arguments all = {"--oversubscribe", "--bind-to", "none", "-n", std::to_string(ranks)};
