@@ -35,7 +35,8 @@ KeptDevice& kept_device() {
 std::shared_ptr<Gpu> keep_device(const VulkanOptions& options) {
     KeptDevice& kept = kept_device();
     const std::lock_guard lock(kept.mutex);
-    if (kept.gpu == nullptr || is_lost(*kept.gpu) || kept.name != options.device || kept.validation != options.validation) {
+    const bool other = kept.name != options.device || kept.validation != options.validation;
+    if (kept.gpu == nullptr || is_lost(*kept.gpu) || other) {
         kept.gpu.reset();
         kept.gpu = open_device(options);
         kept.name = options.device;
