@@ -66,9 +66,11 @@ ImageFormat image_format(const fs::path& path) {
 }
 
 void check_writable(const fs::path& path) {
-    image_format(path);
+    const ImageFormat format = image_format(path);
     check_file_can_be_created(path);
-    with_library(path, [](const ImageLibrary&) {});
+    if (format != ImageFormat::Exr) {  // which this project writes itself
+        with_library(path, [](const ImageLibrary&) {});
+    }
 }
 
 void write_exr_picture(const fs::path& path, const ExrPicture& picture, const WriteBehind& behind) {

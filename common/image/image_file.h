@@ -25,7 +25,7 @@ enum class ImageFormat { Exr, Png, Hdr };
 ImageFormat image_format(const std::filesystem::path& path);
 
 /// Refuses, before the work starts, an output whose extension is unknown or whose folder is missing or cannot be
-/// written to, and any output where the image library cannot be loaded. Leaves nothing behind.
+/// written to, and a PNG or HDR where the image library cannot be loaded. Leaves nothing behind.
 void check_writable(const std::filesystem::path& path);
 
 /// Channels of a file by name, as they are stored there: integers scaled to [0, 1], not decoded.

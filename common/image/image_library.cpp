@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "image/oiio/entry.h"
+#include "own_library.h"
 #include "threads.h"
 
 namespace diptych::core {
@@ -21,7 +22,7 @@ constexpr unsigned fixed_threads = 4;
 
 const ImageLibrary& load() {
     require_threads(fixed_threads + machine_threads());
-    void* library = dlopen(file_name, RTLD_LAZY | RTLD_LOCAL);
+    void* library = open_own_library(file_name);
     if (library == nullptr) {
         fail(dlerror());
     }

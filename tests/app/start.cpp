@@ -78,11 +78,12 @@ fs::path copied_program(const TemporaryFolder& folder) {
     return bin / "diptych";
 }
 
+/// As PNG, which the library writes; EXR does without it.
 ProcessResult render(const TemporaryFolder& folder, const fs::path& by,
-                     const std::vector<std::string>& environment = {}) {
+                     const std::vector<std::string>& environment = {}, const std::string& picture = "picture.png") {
     return run_diptych(folder,
-                       {"render", write_bare_triangle(folder), "-o", folder.file("picture.exr"), "--spp", "1", "--size",
-                        "4", "--backend", "cpu"},
+                       {"render", write_bare_triangle(folder), "-o", folder.file(picture), "--spp", "1", "--size", "4",
+                        "--backend", "cpu"},
                        environment, by.string());
 }
 
@@ -151,13 +152,22 @@ TEST_CASE("without the library for image files, what needs none works and the re
     };
     CHECK(run({"--version"}).exit_code == 0);
     CHECK(run({"info", write_bare_triangle(folder)}).exit_code == 0);
-    check_refusal(render(folder, copy), 2, {"picture.exr: cannot write", library_name, "No such file"});
-    CHECK_FALSE(fs::exists(folder.path() / "picture.exr"));
+    check_renders(render(folder, copy, {}, "picture.exr"));
+    check_refusal(render(folder, copy), 2, {"picture.png: cannot write", library_name, "No such file"});
+    CHECK_FALSE(fs::exists(folder.path() / "picture.png"));
     const std::string scenes = std::string(DIPTYCH_SOURCE_DIR) + "/scenes/";
     check_refusal(run({"info", scenes + "normal-map.gltf"}), 2, {library_name, "No such file"});
     check_refusal(run({"generate", "normal-map", "-o", folder.file("a.gltf")}), 2, {library_name, "No such file"});
     const std::string png = scenes + "normal-map-color.png";
     check_refusal(run({"compare", png, png}), 2, {"normal-map-color.png: cannot read", library_name});
+}
+
+TEST_CASE("the library beside the program goes before one in LD_LIBRARY_PATH", "[app]") {
+    const TemporaryFolder folder, elsewhere;
+    const fs::path copy = copied_program(folder);
+    fs::copy_file(program.parent_path() / library_name, copy.parent_path() / library_name);
+    std::ofstream(elsewhere.path() / library_name) << "of another version";
+    check_renders(render(folder, copy, {"LD_LIBRARY_PATH=" + elsewhere.path().string()}));
 }
 
 TEST_CASE("another library under that name is refused", "[app]") {
@@ -170,5 +180,5 @@ TEST_CASE("another library under that name is refused", "[app]") {
         }
     }
     REQUIRE(fs::exists(copy.parent_path() / library_name));
-    check_refusal(render(folder, copy), 2, {"picture.exr", library_name, "another version"});
+    check_refusal(render(folder, copy), 2, {"picture.png", library_name, "another version"});
 }
