@@ -18,6 +18,7 @@ constexpr double lopsided_share = 0.01;
 constexpr double lopsided_count = 2;
 constexpr double harmless_skewness = 0.4;
 constexpr double skewed_deviations = 2.5;
+constexpr double telling_error = 0.5;
 constexpr double decisive_share = 0.5;
 constexpr double decisive_p = 1e-4;
 
@@ -29,6 +30,10 @@ bool holds_too_much(const RunTail& tail) {
     }
     const double t = student_quantile(1 - decisive_p / (2 * n), n - 2);
     return tail.largest_share > std::max(decisive_share, (n - 1) / n * t * t / (n - 2 + t * t));
+}
+
+const RunTail& darker_side(const TileComparison& comparison) {
+    return comparison.bias_percent < 0 ? comparison.tail_a : comparison.tail_b;
 }
 
 std::string failure(const TileComparison& comparison, std::span<const double> adjusted, double alpha) {
@@ -57,7 +62,7 @@ std::string tail_warning(const TileComparison& comparison) {
 }
 
 std::string skewness_warning(const TileComparison& comparison) {
-    const RunTail& tail = comparison.bias_percent < 0 ? comparison.tail_a : comparison.tail_b;
+    const RunTail& tail = darker_side(comparison);
     return fmt::format("differs, but the darker side's runs are skewed ({:.1f}, one holds {:.0f} % of their variance): "
                        "too few samples "
                        "to tell a loss from bright ones not met yet",
@@ -68,12 +73,18 @@ double squared(double x) {
     return x * x;
 }
 
+std::string few_runs_warning(const TileComparison& comparison) {
+    return fmt::format("differs, but {} runs do not tell how skewed the darker side is (to {:.1f}): too few to tell a "
+                       "loss from what was not met yet",
+                       darker_side(comparison).runs, darker_side(comparison).skewness_error);
+}
+
 /// How many times the samples an inconclusive pair wants, were noise and skewness to fall as those of independent
 /// samples do. Where the interval leaves 0 out, as many as would find a bias of the size measured.
 double wanted_samples(const TileComparison& comparison, const PairVerdict& verdict, const VerdictLimits& limits) {
     constexpr double untold = 4;  // where no figure says how many: half the noise
-    const RunTail& darker = comparison.bias_percent < 0 ? comparison.tail_a : comparison.tail_b;
-    const double skewness = unmet_tail(comparison) ? squared(darker.skewness / harmless_skewness) : 1;
+    const double skewness =
+        unmet_tail(comparison) ? squared(darker_side(comparison).skewness / harmless_skewness) : 1;
     const double tail = lopsided_tails(comparison) || single_run_decides(comparison) ? untold : 1;
     const double power = std::max(squared(comparison.half_width_percent / limits.max_half_width),
                                   squared(comparison.tile_half_width_percent / limits.max_tile_half_width));
@@ -125,9 +136,13 @@ bool lopsided_tails(const TileComparison& comparison) {
 }
 
 bool unmet_tail(const TileComparison& comparison) {
-    const RunTail& darker = comparison.bias_percent < 0 ? comparison.tail_a : comparison.tail_b;
+    const RunTail& darker = darker_side(comparison);
     return !comparison.common_seeds &&
            darker.skewness > std::max(harmless_skewness, skewed_deviations * darker.skewness_error);
+}
+
+bool unknown_tail(const TileComparison& comparison) {
+    return !comparison.common_seeds && darker_side(comparison).skewness_error > telling_error;
 }
 
 bool single_run_decides(const TileComparison& comparison) {
@@ -157,11 +172,15 @@ std::vector<PairVerdict> judge(std::span<const TileComparison> comparisons, cons
                                                             limits.alpha / static_cast<double>(p.size()), limits.power);
         const double p_that_counts = lopsided_tails(comparison) ? own[0] : verdict.adjusted_p;
         const bool unmet = unmet_tail(comparison);
-        if ((p_that_counts <= limits.alpha && !unmet) || comparison.unequal > 0) {
+        const bool unknown = unknown_tail(comparison);
+        if ((p_that_counts <= limits.alpha && !unmet && !unknown) || comparison.unequal > 0) {
             verdict.verdict = Verdict::fail;
             verdict.reason = failure(comparison, own, limits.alpha);
         } else if (verdict.adjusted_p <= limits.alpha) {
-            verdict.reason = unmet ? skewness_warning(comparison) : tail_warning(comparison);
+            verdict.reason = unmet     ? skewness_warning(comparison)
+                             : unknown ? few_runs_warning(comparison)
+                                       : tail_warning(comparison);
+            verdict.more_runs = unknown ? squared(darker_side(comparison).skewness_error / telling_error) : 1;
         } else if (has_power(comparison, limits)) {
             verdict.verdict = Verdict::pass;
             verdict.reason = "no difference, and one would have been seen";

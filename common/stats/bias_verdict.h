@@ -27,6 +27,7 @@ struct PairVerdict {
     double min_detectable_percent = 0;  // bias of the image mean's widest channel that the suite finds with that power
     std::string reason;                 // one clause
     double more_samples = 1;            // where inconclusive: how many times the samples would tell; an estimate
+    double more_runs = 1;               // how many times the runs, where their number is what lacks
 };
 
 /// Whether the intervals are narrow enough to tell.
@@ -48,6 +49,11 @@ bool lopsided_tails(const TileComparison& comparison);
 /// sign.
 bool unmet_tail(const TileComparison& comparison);
 
+/// Whether the darker side's skewness is known to no better than 0.5: fewer than 24 runs of one tile, or than six of four
+/// tiles alike. The rule above is blind then, and so few runs may lie close together by chance. Never where seeds are
+/// common.
+bool unknown_tail(const TileComparison& comparison);
+
 /// Whether one run holds over half of the image mean's variance on a side, and more than one of so few normal runs
 /// would: then the variance itself is a matter of chance, and an interval made of it no interval. Never where seeds are
 /// common: there one path that parts may make all of a minute variance.
@@ -55,7 +61,7 @@ bool single_run_decides(const TileComparison& comparison);
 
 /// Image mean, Fisher's combination and the least tile of every pair go through Holm's procedure together, so one false
 /// FAIL among all pairs has probability alpha at most. FAIL wants no power; PASS does. Under lopsided tails, tiles
-/// alone make no FAIL but INCONCLUSIVE; with an unmet tail nothing does but constants that differ. Where a single run
+/// alone make no FAIL but INCONCLUSIVE; with an unmet or unknown tail nothing does but constants that differ. Where a single run
 /// decides, there is no PASS.
 std::vector<PairVerdict> judge(std::span<const TileComparison> comparisons, const VerdictLimits& limits);
 

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -107,8 +108,13 @@ TEST_CASE("a viewer that reads 4 kB in half a second stretches --time by less th
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const SlowViewer viewer;
-    const double alone = seconds_of_render(folder, scene, "1", nullptr);
-    const double watched = seconds_of_render(folder, scene, "1", &viewer);  // the whole picture would take twelve minutes
+    // The least of several: other processes make a run longer, never shorter.
+    double alone = seconds_of_render(folder, scene, "1", nullptr);
+    double watched = seconds_of_render(folder, scene, "1", &viewer);  // the whole picture would take twelve minutes
+    for (int again = 0; again < 4 && watched >= alone + 0.5; ++again) {
+        alone = std::min(alone, seconds_of_render(folder, scene, "1", nullptr));
+        watched = std::min(watched, seconds_of_render(folder, scene, "1", &viewer));
+    }
     INFO(alone << " s alone, " << watched << " s with the viewer");
     CHECK(watched < alone + 0.5);
 }

@@ -97,6 +97,40 @@ TEST_CASE("A side whose tail is not met yet makes no FAIL, and one run that deci
     CHECK(mild.failed >= 90);
 }
 
+TEST_CASE("Four runs of one tile that lie together by chance make no FAIL, 24 do") {
+    // A run's samples of a pixel, spread evenly, hit a small lamp twice or three times.
+    const TileNoise noise = [steady = steady_noise(1)](std::mt19937_64& random) {
+        const double hits = std::bernoulli_distribution()(random) ? 3 : 2;
+        const double value = hits + steady(random)[0];
+        return Channels{value, value, value};
+    };
+    constexpr int repeats = 2000;
+    int by_p = 0;
+    int failed = 0;
+    std::mt19937_64 random(31);
+    const auto compare = [&](int runs, const TileNoise& noise_a, const TileNoise& noise_b) {
+        const std::vector<RunMeans> a = made_up_runs(random, runs, 1, noise_a);
+        const std::vector<RunMeans> b = made_up_runs(random, runs, 1, noise_b);
+        return compare_runs(a, b, {.resamplings = 0});
+    };
+    for (int i = 0; i < repeats; ++i) {
+        const TileComparison comparison = compare(4, noise, noise);
+        by_p += comparison.global_p <= 1e-3 / 3 ? 1 : 0;
+        failed += judge(std::span(&comparison, 1), {}).front().verdict == Verdict::fail ? 1 : 0;
+    }
+    std::printf("four runs of few events, unbiased: the image fails in %d of %d by p; %d FAIL\n", by_p, repeats, failed);
+    CHECK(by_p >= 8);    // what the rule is for: a third of alpha allows 0.7
+    CHECK(failed <= 2);  // alpha
+    const auto darker = [&](int runs) {
+        const TileComparison comparison = compare(runs, steady_noise(0.9), steady_noise(1));
+        return judge(std::span(&comparison, 1), {}).front();
+    };
+    CHECK(darker(6).verdict == Verdict::inconclusive);
+    CHECK(darker(6).more_runs == Approx(4));
+    CHECK(darker(6).reason.find("6 runs") != std::string::npos);
+    CHECK(darker(24).verdict == Verdict::fail);
+}
+
 TEST_CASE("The brighter side's tail excuses nothing") {
     TileComparison comparison;
     comparison.global_p = 1e-6;

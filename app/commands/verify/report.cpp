@@ -41,6 +41,21 @@ std::string samples_text(double spp, double spp_b, bool spread) {
     return fmt::format("--spp {:.0f}", spp) + (spread ? fmt::format(" --against-spp {:.0f}", spp_b) : "");
 }
 
+double wanted_runs(const PairResult& pair, const VerifyOptions& options) {
+    return std::ceil(options.runs * pair.verdict.more_runs);
+}
+
+std::string runs_text(double runs, const VerifyOptions& options) {
+    return runs > options.runs ? fmt::format(" --runs {:.0f}", runs) : "";
+}
+
+std::string advice(const PairResult& pair, const VerifyOptions& options) {
+    return ": try " +
+           samples_text(more_of(pair.spp, pair.verdict.more_samples, options),
+                        more_of(pair.spp_b, pair.verdict.more_samples, options), pair.spp != pair.spp_b) +
+           runs_text(wanted_runs(pair, options), options);
+}
+
 /// Characters of the first column.
 int name_width(const VerifyOptions& options) {
     return options.frames.empty() ? 28 : 39;
@@ -56,11 +71,7 @@ void print_pair(const PairResult& pair, const VerifyOptions& options) {
         100 * c.resolved_share, c.global_p, c.fisher_p, c.min_p, name_of(pair.verdict.verdict));
     if (pair.verdict.verdict != Verdict::pass) {
         print_result("    {}{}\n", pair.verdict.reason,
-                     pair.verdict.verdict == Verdict::inconclusive
-                         ? ": try " + samples_text(more_of(pair.spp, pair.verdict.more_samples, options),
-                                                   more_of(pair.spp_b, pair.verdict.more_samples, options),
-                                                   pair.spp != pair.spp_b)
-                         : "");
+                     pair.verdict.verdict == Verdict::inconclusive ? advice(pair, options) : "");
     }
 }
 
@@ -73,12 +84,14 @@ Verdict verdict_of(const SuiteResult& suite) {
 std::string next_command(const VerifyOptions& options, const SuiteResult& suite) {
     double spp = 0;
     double spp_b = 0;
+    double runs = options.runs;
     bool spread = false;
     bool seen = false;
     for (const PairResult& pair : suite.pairs) {
         if (pair.verdict.verdict == Verdict::inconclusive) {
             spp = std::max(spp, more_of(pair.spp, pair.verdict.more_samples, options));
             spp_b = std::max(spp_b, more_of(pair.spp_b, pair.verdict.more_samples, options));
+            runs = std::max(runs, wanted_runs(pair, options));
             spread = spread || pair.spp != pair.spp_b;
             seen = seen || excludes_zero(pair.comparison) || pair.verdict.adjusted_p <= options.alpha;
         }
@@ -87,7 +100,10 @@ std::string next_command(const VerifyOptions& options, const SuiteResult& suite)
         return "";
     }
     std::vector<std::string> replaced = {"--spp", "--against-spp", "--time"};
-    std::string instead = samples_text(spp, spp_b, spread);
+    std::string instead = samples_text(spp, spp_b, spread) + runs_text(runs, options);
+    if (runs > options.runs) {
+        replaced.emplace_back("--runs");
+    }
     if (seen) {  // the same runs again would find the same difference again
         replaced.emplace_back("--seed");
         instead += fmt::format(" --seed {}", suite.seed + 1);
