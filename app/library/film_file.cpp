@@ -47,7 +47,7 @@ FilmInfo info_of(const std::string& path, const FilmData& data) {
 Film Film::load(const std::string& path, std::uint64_t memory_limit) {
     return guarded([&] {
         auto data = std::make_shared<FilmData>();
-        if (std::optional<core::FilmFile> file = core::read_film(path)) {
+        if (std::optional<core::FilmFile> file = core::read_film(path, memory_limit)) {
             data->film = std::move(file->film);
             data->metadata = std::move(file->metadata);
             data->developed = core::develop(data->film);

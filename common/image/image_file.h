@@ -16,6 +16,7 @@
 #include "image/pixel_window.h"
 #include "image/temporary_file.h"
 #include "image/word_channels.h"
+#include "memory_budget.h"
 
 namespace diptych::core {
 
@@ -53,9 +54,9 @@ RawImage read_raw(const std::filesystem::path& path, const std::string& layer = 
 /// The string attributes of a file that OpenImageIO reads. Throws an Error naming file and reason.
 std::map<std::string, std::string> read_attributes(const std::filesystem::path& path);
 
-/// The words that earlier versions have put into channels behind a picture; none where the file has none. Throws an
-/// Error naming file and reason.
-std::optional<WordChannels> read_words(const std::filesystem::path& path);
+/// The words that earlier versions have put into channels behind a picture; none where the file has none. Asks the
+/// budget for them before they are allocated. Throws an Error naming file and reason.
+std::optional<WordChannels> read_words(const std::filesystem::path& path, MemoryBudget& budget);
 
 /// Writes what goes behind the picture in its file, where readers of pictures do not look. Throws Error.
 using WriteBehind = std::function<void(TemporaryFile& file)>;

@@ -200,7 +200,7 @@ std::map<std::string, std::string> read_attributes(const fs::path& path) {
     return read_checked(path, 0, [&](MemoryBudget&) { return open_by_library(path)->headers()[0].attributes; });
 }
 
-std::optional<WordChannels> read_words(const fs::path& path) {
+std::optional<WordChannels> read_words(const fs::path& path, MemoryBudget& budget) {
     return read_checked(path, 0, [&](MemoryBudget&) -> std::optional<WordChannels> {
         const std::unique_ptr<PictureFile> file = open_by_library(path);
         const PictureHeader& header = file->headers()[0];
@@ -222,6 +222,7 @@ std::optional<WordChannels> read_words(const fs::path& path) {
         if (!reason.empty()) {
             fail(reason);
         }
+        budget.ask(float_bytes(words.width, words.height, static_cast<std::int64_t>(words.names.size())));
         words.data.resize(static_cast<std::size_t>(words.width) * static_cast<std::size_t>(words.height) *
                           words.names.size());
         file->read(0, static_cast<int>(begin - names.begin()), static_cast<int>(end - names.begin()), words.data);

@@ -36,6 +36,11 @@ void develop_first_hits(const Film& film, std::size_t first, LayeredImage& layer
 
 }  // namespace
 
+std::uint64_t film_bytes(std::uint64_t pixels, bool moments, bool first_hits) {
+    return pixels * (sizeof(shared::FilmPixel) + (moments ? sizeof(shared::FilmMoments) : 0) +
+                     (first_hits ? sizeof(shared::FilmFirstHit) : 0));
+}
+
 FilmTotals film_totals(const Film& film) {
     FilmTotals totals;
     totals.least = film.pixels.empty() ? 0 : std::numeric_limits<std::uint32_t>::max();

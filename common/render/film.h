@@ -18,6 +18,9 @@ struct Film {
     std::vector<shared::FilmFirstHit> first_hits;
 };
 
+/// Bytes of a film of so many pixels with these layers.
+std::uint64_t film_bytes(std::uint64_t pixels, bool moments, bool first_hits);
+
 struct FilmTotals {
     std::uint64_t samples = 0;    // averaged, over all pixels
     std::uint64_t nonfinite = 0;  // dropped

@@ -90,8 +90,9 @@ void read_at(std::ifstream& file, std::uint64_t place, T* to, std::size_t count)
     }
 }
 
-/// An empty film as the footer has it. Before it is allocated, its size is held against the bytes of the file.
-Film film_of(const Footer& footer, std::uint64_t file_bytes) {
+/// An empty film as the footer has it. Before it is allocated, its size is held against the bytes of the file and
+/// against the budget.
+Film film_of(const Footer& footer, std::uint64_t file_bytes, MemoryBudget& budget) {
     const std::string problem = size_claim_problem(footer.width, footer.height, 1, file_bytes);
     if (!problem.empty()) {
         throw std::runtime_error(problem);
@@ -103,6 +104,7 @@ Film film_of(const Footer& footer, std::uint64_t file_bytes) {
     if (least_packed_bytes(film, pixels) + groups_of(pixels) * sizeof(Group) + sizeof footer > file_bytes) {
         fail_damaged();
     }
+    budget.ask(film_bytes(pixels, footer.moments != 0, footer.first_hits != 0));
     film.pixels.resize(pixels);
     film.moments.resize(footer.moments != 0 ? pixels : 0);
     film.first_hits.resize(footer.first_hits != 0 ? pixels : 0);
@@ -164,7 +166,7 @@ void write_film_behind(const Film& film, TemporaryFile& file) {
     file.write_at(end + table.size(), bytes_of_all(&footer, 1));
 }
 
-Film read_film_behind(const std::filesystem::path& path) {
+Film read_film_behind(const std::filesystem::path& path, MemoryBudget& budget) {
     std::ifstream file(path, std::ios::binary);
     const std::uint64_t size = std::filesystem::file_size(path);
     Footer footer;
@@ -175,7 +177,7 @@ Film read_film_behind(const std::filesystem::path& path) {
         throw std::runtime_error("the sums of its samples are gone from its end: it was cut short, or written anew by "
                                  "another program");
     }
-    Film film = film_of(footer, size);
+    Film film = film_of(footer, size, budget);
     const std::size_t pixels = film.pixels.size();
     std::vector<Group> groups(groups_of(pixels));
     const std::uint64_t table = size - sizeof footer - groups.size() * sizeof(Group);

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "image/temporary_file.h"
+#include "memory_budget.h"
 #include "render/film.h"
 
 namespace diptych::core {
@@ -18,7 +19,8 @@ inline constexpr const char* film_behind_entry = "sums_place";
 /// Appends the film to the file. Packs and writes on all cores. Throws Error.
 void write_film_behind(const Film& film, TemporaryFile& file);
 
-/// Throws std::runtime_error where there is no such film, or where it is damaged.
-Film read_film_behind(const std::filesystem::path& path);
+/// Asks the budget for the film before it is allocated. Throws std::runtime_error where there is no such film, where it
+/// is damaged, or where it is too large.
+Film read_film_behind(const std::filesystem::path& path, MemoryBudget& budget);
 
 }  // namespace diptych::core

@@ -42,20 +42,21 @@ bool take_film_entries(Metadata& metadata) {
     return behind || in_channels;
 }
 
-std::optional<FilmFile> read_film(const std::filesystem::path& path) {
+std::optional<FilmFile> read_film(const std::filesystem::path& path, std::uint64_t memory_limit) {
+    MemoryBudget budget(memory_limit);
     FilmFile file;
     file.metadata = read_metadata(path);
     const bool behind = file.metadata.count(film_behind_entry) > 0;
     take_film_entries(file.metadata);
-    const std::optional<WordChannels> words = behind ? std::nullopt : read_words(path);
+    const std::optional<WordChannels> words = behind ? std::nullopt : read_words(path, budget);
     if (!behind && !words) {
         return std::nullopt;
     }
     try {
         file.samples = SampleRanges::parse(entry(file.metadata, "samples"));
-        file.film = behind ? read_film_behind(path)
+        file.film = behind ? read_film_behind(path, budget)
                            : film_of_words(*words, entry(file.metadata, "standard_error") == "yes",
-                                           entry(file.metadata, "first_hit_layers") == "yes");
+                                           entry(file.metadata, "first_hit_layers") == "yes", budget);
     } catch (const std::runtime_error& error) {
         throw Error(path.string() + ": cannot read its film: " + error.what());
     }

@@ -1,6 +1,7 @@
 // Films in files, from which they come back to the bit.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -19,9 +20,9 @@ struct FilmFile {
     SampleRanges samples;  // that every pixel has
 };
 
-/// Reads what save_film has written with its sums. None where the file is a picture without them. Throws Error naming
-/// file and reason.
-std::optional<FilmFile> read_film(const std::filesystem::path& path);
+/// Reads what save_film has written with its sums. None where the file is a picture without them. The film may take
+/// `memory_limit` bytes (memory_budget.h). Throws Error naming file and reason.
+std::optional<FilmFile> read_film(const std::filesystem::path& path, std::uint64_t memory_limit = 0);
 
 /// Takes out the entries of a file's metadata that tell where its film lies. They are of the file, not of the picture.
 /// Returns whether the file has a film.

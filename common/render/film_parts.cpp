@@ -28,8 +28,8 @@ void require_other_samples(const FilmPart& part, const FilmPart& other) {
     }
 }
 
-FilmFile read_part(const std::filesystem::path& path) {
-    std::optional<FilmFile> file = read_film(path);
+FilmFile read_part(const std::filesystem::path& path, std::uint64_t memory_limit) {
+    std::optional<FilmFile> file = read_film(path, memory_limit);
     if (!file) {
         throw Error(fmt::format("{}: is a picture without the sums of its samples; render it with `samples` or `sums`",
                                 path.string()));

@@ -20,8 +20,8 @@ void require_same_picture(const std::string& part, const Metadata& metadata, con
                           const Metadata& whole_metadata);
 void require_other_samples(const FilmPart& part, const FilmPart& other);
 
-/// The film of a file that may be a part. Throws Error naming file and reason.
-FilmFile read_part(const std::filesystem::path& path);
+/// The film of a file that may be a part. `memory_limit` is read_film's. Throws Error naming file and reason.
+FilmFile read_part(const std::filesystem::path& path, std::uint64_t memory_limit = 0);
 
 /// The samples up to the last one that are not there.
 SampleRanges missing_samples(const SampleRanges& samples);

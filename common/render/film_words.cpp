@@ -92,11 +92,12 @@ void check_bases(const Film& film) {
     }
 }
 
-Film film_of_words(const WordChannels& words, bool moments, bool first_hits) {
+Film film_of_words(const WordChannels& words, bool moments, bool first_hits, MemoryBudget& budget) {
     Film film;
     film.width = words.width;
     film.height = words.height;
     const std::size_t count = static_cast<std::size_t>(words.width) * static_cast<std::size_t>(words.height);
+    budget.ask(film_bytes(count, moments, first_hits));
     film.pixels.resize(count);
     film.moments.resize(moments ? count : 0);
     film.first_hits.resize(first_hits ? count : 0);

@@ -151,3 +151,18 @@ TEST_CASE("a file that asks for too much memory is refused by --memory-limit", "
     check_refusal(run_diptych(folder, {"compare", name, name, "--memory-limit", "90K"}), 2, {name, "--memory-limit"});
     CHECK(run_diptych(folder, {"compare", name, name}).exit_code == 0);
 }
+
+TEST_CASE("a film with sums that asks for too much memory is refused by --memory-limit", "[app]") {
+    const TemporaryFolder folder;
+    const std::string scene = generate_scene(folder, "cornell"), out = folder.file("out.exr");
+    const std::string part = folder.file("part.exr");
+    const std::vector<std::string> render = {"render", scene, "--backend", "cpu", "--size", "96x64"};
+    REQUIRE(run_diptych(folder, with(render, {"--samples", "0:1", "-o", part})).exit_code == 0);
+    const std::vector<std::string> refused = {part + ": cannot read its film: asks for 1.4 MB",
+                                              "a file may ask for 1.0 MB (--memory-limit)"};
+    check_refusal(run_diptych(folder, {"merge", part, "-o", out, "--memory-limit", "1M"}), 2, refused);
+    check_refusal(
+        run_diptych(folder, with(render, {"--spp", "2", "-o", out, "--resume", part, "--memory-limit", "1M"})), 2, refused);
+    CHECK_FALSE(std::filesystem::exists(out));
+    CHECK(run_diptych(folder, {"merge", part, "-o", out, "--memory-limit", "2M"}).exit_code == 0);
+}

@@ -134,6 +134,46 @@ TEST_CASE("A file whose film is damaged or cut short is refused by name") {
     CHECK_FALSE(refused(bytes));
 }
 
+TEST_CASE("A film asks for no more memory than it may, and a small file cannot claim a huge one") {
+    const tests::TemporaryFolder folder;
+    const FilmFile written = film_file(noisy_film(40, 30, true, 9), false);
+    const std::string path = (folder / "film.exr").string();
+    save_film_file(written, path, true);
+    const std::uint64_t bytes = film_bytes(40 * 30, true, true);
+    CHECK(bytes == 40 * 30 * 236);
+    CHECK(same_film(read_film(path, bytes)->film, written.film));
+    const auto refusal = [](const std::filesystem::path& file, std::uint64_t limit) {
+        try {
+            read_film(file, limit);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(refusal(path, bytes - 1) ==
+          path + ": cannot read its film: asks for 276.6 KB, and a file may ask for 276.6 KB (`memory_limit`)");
+    const std::filesystem::path old = DIPTYCH_SOURCE_DIR "/tests/common/data/sums-in-channels.exr";
+    const std::string of_words = refusal(old, 1000);
+    CHECK(of_words.find(old.string()) == 0);
+    CHECK(of_words.find("a file may ask for 1000 bytes (`memory_limit`)") != std::string::npos);
+    // The same picture with a footer that claims 16384 x 16384 pixels and all layers: 59 GB. A hole makes the file long
+    // enough for the least that so many pixels can take; it takes no room on the disk.
+    const std::filesystem::path claim = folder.write("claim.exr", bytes_in(path));
+    const std::uint64_t length = std::uint64_t{32} << 20U;
+    std::filesystem::resize_file(claim, length);
+    std::string footer = bytes_in(path);
+    footer = footer.substr(footer.size() - 32);
+    const std::uint32_t side = 16384;
+    std::memcpy(footer.data(), &side, sizeof side);
+    std::memcpy(footer.data() + 4, &side, sizeof side);
+    std::fstream file(claim, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(static_cast<std::streamoff>(length - 32));
+    file.write(footer.data(), 32);
+    file.close();
+    CHECK(refusal(claim, std::uint64_t{1} << 30U) ==
+          claim.string() + ": cannot read its film: asks for 59.0 GB, and a file may ask for 1.0 GB (`memory_limit`)");
+}
+
 TEST_CASE("Bytes that are no pixels are refused, or are some pixels") {
     std::mt19937 random(1);
     Film film = noisy_film(300, 1, true, 1);

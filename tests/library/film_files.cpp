@@ -55,6 +55,16 @@ TEST_CASE("A film that is saved with its sums comes back to the bit") {
     CHECK(bytes("again.exr") == bytes("film.exr"));
 }
 
+TEST_CASE("A film's file asks for no more memory than it may") {
+    const Folder folder;
+    const std::string path = folder.file("film.exr");
+    part_of(small_scene(), 0, 2).save(path, {.sums = true});
+    const std::uint64_t bytes = 24 * 16 * 236;  // sums, moments and first hits
+    CHECK(dp::Film::load(path, bytes).has_sums());
+    CHECK(message_of([&] { dp::Film::load(path, bytes - 1); }) ==
+          path + ": cannot read its film: asks for 88.5 KB, and a file may ask for 88.5 KB (`memory_limit`)");
+}
+
 TEST_CASE("Films from files merge with films of this process and with one another, to the bits of one render") {
     const Folder folder;
     const dp::Scene scene = small_scene();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <regex>
 
+#include "commands/arguments/arguments.h"
 #include "commands/command.h"
 #include "commands/render/kept_work.h"
 #include "console/output.h"
@@ -34,6 +35,7 @@ struct MergeOptions {
     bool partial = false;
     bool sums = false;
     bool overwrite = false;
+    std::uint64_t memory_limit = 0;
 };
 
 double number_of(const FilmFile& file, const char* name) {
@@ -80,10 +82,10 @@ int run_merge(const MergeOptions& options) {
             throw Error(fmt::format("-o {}: is one of the parts", options.output));
         }
     }
-    FilmFile whole = read_part(options.parts.front());
+    FilmFile whole = read_part(options.parts.front(), options.memory_limit);
     std::vector<FilmPart> parts = {{options.parts.front(), whole.samples}};
     for (std::size_t i = 1; i < options.parts.size(); ++i) {
-        const FilmFile file = read_part(options.parts[i]);
+        const FilmFile file = read_part(options.parts[i], options.memory_limit);
         const FilmPart part{options.parts[i], file.samples};
         add_part(part, file, parts, whole);
         parts.push_back(part);
@@ -116,6 +118,7 @@ void add_merge(CLI::App& app, Run& run) {
     command->add_flag("--sums", options->sums,
                       "Keep the sums of the samples in the .exr, so that it can be merged and resumed");
     command->add_flag("--overwrite", options->overwrite, "Replace a picture of more samples");
+    add_memory_option(*command, options->memory_limit);
     command->footer(merge_examples);
     command->callback([options, &run] { run = [options] { return run_merge(*options); }; });
 }

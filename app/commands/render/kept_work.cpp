@@ -11,6 +11,7 @@
 #include "console/report.h"
 #include "error.h"
 #include "image/layered_image.h"
+#include "memory_budget.h"
 #include "render/merge_films.h"
 
 namespace diptych::core::app {
@@ -67,7 +68,7 @@ struct Candidate {
 
 /// Adds the samples of a file, which has none in common with those.
 void take_file(Session& session, const RenderRequest& request, const Candidate& candidate, KeptWork& work) {
-    std::optional<FilmFile> file = read_film(candidate.path);
+    std::optional<FilmFile> file = read_film(candidate.path, kept_film_limit(request));
     if (!file) {
         throw Error(fmt::format("{}: is a picture without the sums of its samples, which only parts and checkpoints hold",
                                 candidate.path));
@@ -132,6 +133,16 @@ std::string rank_part_path(const std::string& path, int rank) {
         stem.replace_extension();
     }
     return fmt::format("{}.rank{}.part.exr", stem.string(), rank);
+}
+
+std::uint64_t kept_film_limit(const RenderRequest& request) {
+    if (request.memory_limit > 0) {
+        return request.memory_limit;
+    }
+    const RenderSettings& settings = request.settings;
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+    return std::max(default_memory_limit(), film_bytes(pixels, settings.standard_error, settings.first_hit_layers));
 }
 
 std::vector<std::string> rank_parts(const std::string& path) {

@@ -31,6 +31,10 @@ std::string rank_part_path(const std::string& path, int rank);
 /// The files of ranks, of earlier runs or of this one, that belong to `path`.
 std::vector<std::string> rank_parts(const std::string& path);
 
+/// Bytes that a file with samples of this picture may ask for: `memory_limit`, and by default as much as the picture's
+/// own film has at least, which the user asked for and not the file.
+std::uint64_t kept_film_limit(const RenderRequest& request);
+
 /// Samples per pixel that a picture's metadata tell; 0 where the file is missing or does not tell.
 std::uint64_t samples_in(const std::string& path);
 

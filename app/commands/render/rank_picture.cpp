@@ -34,8 +34,8 @@ std::string identity_of(const RenderRequest& request, PictureWork& work) {
 /// The parts of ranks that have died, which rank 0 takes over.
 class Adopted {
 public:
-    Adopted(const PictureWork& work, int ranks, std::string identity)
-        : path_(work.unfinished()), next_(ranks), identity_(std::move(identity)) {}
+    Adopted(const PictureWork& work, int ranks, std::string identity, std::uint64_t memory_limit)
+        : path_(work.unfinished()), next_(ranks), identity_(std::move(identity)), memory_limit_(memory_limit) {}
 
     /// Returns the samples of the rank's part. The file gets another rank's name, so that its owner, should it live after
     /// all, writes over nothing.
@@ -45,7 +45,7 @@ public:
             if (!std::filesystem::exists(part)) {
                 return {};
             }
-            std::optional<FilmFile> file = read_film(part);
+            std::optional<FilmFile> file = read_film(part, memory_limit_);
             if (!file || file->metadata["uneven"] == "yes" || picture_identity(file->metadata) != identity_) {
                 return {};
             }
@@ -70,6 +70,7 @@ private:
     std::string path_;
     int next_;
     std::string identity_;
+    std::uint64_t memory_limit_;
     Film film_;
     std::uint64_t samples_ = 0;
 };
@@ -86,7 +87,9 @@ std::string devices_text(const std::map<std::string, int>& devices) {
 class PictureOnRanks {
 public:
     PictureOnRanks(RankRun& run, Session& session, const RenderRequest& request, bool quiet, PictureWork& work)
-        : run_(run), session_(session), request_(request), quiet_(quiet), work_(work), adopted_(work, run.team().place().size, identity_of(request, work)), line_(std::in_place, request.spp) {}
+        : run_(run), session_(session), request_(request), quiet_(quiet), work_(work),
+          adopted_(work, run.team().place().size, identity_of(request, work), kept_film_limit(request)),
+          line_(std::in_place, request.spp) {}
 
     void start() {
         work_.find_kept();
