@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -44,6 +45,23 @@ void redirect(const std::filesystem::path& path, int descriptor) {
     pointers.push_back(nullptr);
     execv(pointers[0], pointers.data());
     _exit(127);
+}
+
+/// Whether a program that this process started has a handler for the signal. Until it runs, it shows this process's own.
+bool catches(int process, int signal) {
+    const std::filesystem::path folder = "/proc/" + std::to_string(process);
+    std::error_code gone;
+    const std::filesystem::path program = std::filesystem::read_symlink(folder / "exe", gone);
+    if (gone || program == std::filesystem::read_symlink("/proc/self/exe")) {
+        return false;
+    }
+    std::ifstream status(folder / "status");
+    for (std::string word; status >> word;) {
+        if (std::uint64_t mask = 0; word == "SigCgt:" && status >> std::hex >> mask) {
+            return (mask >> static_cast<unsigned>(signal - 1) & 1U) != 0;
+        }
+    }
+    return false;
 }
 
 }  // namespace
@@ -91,11 +109,11 @@ bool Process::ended() {
     return reaped_;
 }
 
-bool Process::wait_for_error_text(const std::string& text, double seconds) {
+bool Process::wait_for(const std::function<bool()>& happened, double seconds) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (std::chrono::steady_clock::now() < deadline) {
         const bool over = ended();
-        if (file_text(err_).find(text) != std::string::npos) {
+        if (happened()) {
             return true;
         }
         if (over) {
@@ -104,6 +122,14 @@ bool Process::wait_for_error_text(const std::string& text, double seconds) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     return false;
+}
+
+bool Process::wait_for_error_text(const std::string& text, double seconds) {
+    return wait_for([&] { return file_text(err_).find(text) != std::string::npos; }, seconds);
+}
+
+bool Process::wait_for_handler(int signal, double seconds) {
+    return wait_for([&] { return catches(child_, signal); }, seconds);
 }
 
 void Process::send(int signal) {

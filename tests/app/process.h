@@ -43,12 +43,16 @@ public:
 
     /// Waits until stderr holds `text`; false after `seconds` or when the program ended without it.
     bool wait_for_error_text(const std::string& text, double seconds);
+    /// Waits until the program has a handler for the signal; false after `seconds` or when the program ended without one.
+    bool wait_for_handler(int signal, double seconds);
     void send(int signal);
     ProcessResult finish();
     int id() const { return child_; }
 
 private:
     bool ended();
+    /// Waits for what `happened` tells; false after `seconds` or when the program ended without it.
+    bool wait_for(const std::function<bool()>& happened, double seconds);
 
     std::filesystem::path out_;
     std::filesystem::path err_;

@@ -1,11 +1,9 @@
 // What schedulers and terminals send to a program that works.
 #include "catch.h"
 
-#include <chrono>
 #include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "image/layered_image.h"
 #include "process.h"
@@ -50,7 +48,7 @@ TEST_CASE("each signal of a scheduler saves the work so far and ends with 128 + 
 TEST_CASE("a signal ends a command that has nothing to save with 128 + its number", "[app]") {
     const TemporaryFolder folder;
     Process process(folder, {"generate", "many-lights", "--count", "20000000", "-o", folder.file("street.glb")});
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    REQUIRE(process.wait_for_handler(SIGTERM, 60));
     process.send(SIGTERM);
     const ProcessResult result = process.finish();
     CHECK(result.exit_code == 128 + SIGTERM);

@@ -17,6 +17,7 @@
 #include "clock.h"
 #include "image/layered_image.h"
 #include "process.h"
+#include "sanitized.h"
 
 using namespace diptych::core;
 using namespace diptych::core::tests;
@@ -105,6 +106,9 @@ double seconds_of_render(const TemporaryFolder& folder, const std::string& scene
 }  // namespace
 
 TEST_CASE("a viewer that reads 4 kB in half a second stretches --time by less than half a second", "[app][timed]") {
+    if (sanitized) {
+        SKIP_TEST("sanitizers take time of their own");
+    }
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
     const SlowViewer viewer;

@@ -10,18 +10,8 @@
 
 #include "catch.h"
 #include "process.h"
+#include "sanitized.h"
 #include "skipping.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SANITIZED 1
-#endif
-#endif
-#ifndef SANITIZED
-#define SANITIZED 0
-#endif
 
 using namespace diptych::core::tests;
 
@@ -95,7 +85,7 @@ void check_renders(const ProcessResult& result) {
 }  // namespace
 
 TEST_CASE("the program starts within 100 ms and 25 MB", "[app][timed]") {
-    if (SANITIZED) {
+    if (sanitized) {
         SKIP_TEST("sanitizers take time and memory of their own");
     }
     for (const char* option : {"--version", "--help"}) {
