@@ -11,6 +11,7 @@
 #include "memory_channel.h"
 #include "ranks/film_exchange.h"
 #include "render/merge_films.h"
+#include "sanitized.h"
 
 namespace diptych::core::tests {
 namespace {
@@ -192,7 +193,7 @@ TEST_CASE("A slow rank gets less, and holds the others up by a block at most") {
     const auto results = render_on_all(4, 600, fault, warnings);
     REQUIRE(results[0].film);
     check_whole(*results[0].film, 600);
-    CHECK(results[2].samples < 60);
+    CHECK(results[2].samples < (sanitized ? 150 : 60));  // sanitizers slow down all ranks; 150 is a quarter
     double first = HUGE_VAL, last = 0;
     for (const RankResult& result : results) {
         first = std::min(first, result.last_end);
