@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# tests/scripts/gpu_assisted.sh BUILD FOLDER...: runs the device tests of these folders under the validation layer's
+# GPU-assisted and synchronisation checks, and fails at any message. Exit code 77 where there is no layer that can.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+build=$1
+shift
+
+# Layers before this one count a vec3 as 16 bytes, which in scalar layout it is not: they report reads at the end of a
+# buffer that are none beyond it, and give the shader zeros instead (KhronosGroup/SPIRV-Tools issue 4992).
+least=1.3.268
+version_in() {
+    sed -n 's/.*"api_version": *"\([0-9.]*\)".*/\1/p' "$1/VkLayer_khronos_validation.json" 2>/dev/null || true
+}
+is_new() { [ -n "$1" ] && [ "$(printf '%s\n' "$least" "$1" | sort -V | head -n 1)" = "$least" ]; }
+
+# Debian 13's layer, with the C and C++ libraries that it needs, beside the system's own.
+fetch_layer() {
+    local folder=$1 options key=/usr/share/keyrings/debian-archive-keyring.gpg
+    [ ! -d "$folder/root" ] || return 0
+    [ "${DIPTYCH_NO_INSTALL:-0}" != 1 ] && command -v apt-get >/dev/null && command -v dpkg >/dev/null || return 1
+    mkdir -p "$folder/lists/partial" "$folder/cache/archives/partial"
+    echo "deb [signed-by=$key] http://deb.debian.org/debian trixie main" >"$folder/sources.list"
+    options=(-qq -o "Dir::Etc::SourceList=$folder/sources.list" -o Dir::Etc::SourceParts=/dev/null
+             -o "Dir::State::Lists=$folder/lists" -o "Dir::Cache=$folder/cache" -o Acquire::Languages=none)
+    (cd "$folder" && apt-get "${options[@]}" update &&
+        apt-get "${options[@]}" download vulkan-validationlayers libc6 libstdc++6 libgcc-s1 &&
+        mkdir unpacked && for package in *.deb; do dpkg -x "$package" unpacked || exit 1; done &&
+        mv unpacked root) >"$folder/log" 2>&1
+}
+
+runner=()
+version=$(version_in "${VK_LAYER_PATH:-/usr/share/vulkan/explicit_layer.d}")
+if ! is_new "$version"; then
+    layer=$root/build/validation-layer
+    mkdir -p "$layer"
+    if ! fetch_layer "$layer"; then
+        echo "SKIPPED: the validation layer is ${version:-not installed}; $least or later is needed ($layer/log)"
+        exit 77
+    fi
+    export VK_LAYER_PATH=$layer/root/usr/share/vulkan/explicit_layer.d
+    version=$(version_in "$VK_LAYER_PATH")
+    runner=("$layer/root/usr/lib64/ld-linux-x86-64.so.2" --library-path "$layer/root/usr/lib/x86_64-linux-gnu")
+fi
+echo "validation layer $version"
+
+# What the layer says of itself is left out: that it is slow, and which features it turns on for its own shaders.
+export VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT DIPTYCH_VALIDATION=1
+export VK_LAYER_MESSAGE_ID_FILTER=VALIDATION-SETTINGS,WARNING-GPU-Assisted-Validation
+
+# These two provoke messages.
+provoked=("Validation reports a write that races with another, and counts it"
+          "GPU-assisted validation reports a read beyond the end of a buffer by its address")
+others="~[nightly]"
+for test in "${provoked[@]}"; do
+    "${runner[@]}" "$build/tests/tests_gpu" "${test//,/\\,}"
+    others+="~\"${test//,/\\,}\""
+done
+for folder in "$@"; do
+    log=$build/gpu_assisted_$folder.log
+    "${runner[@]}" "$build/tests/tests_$folder" "$others" --durations yes 2>&1 | tee "$log"
+    if grep -q "^validation: " "$log"; then
+        echo "FAILED: $folder has validation messages: $log"
+        exit 1
+    fi
+done
