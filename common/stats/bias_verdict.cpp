@@ -18,7 +18,7 @@ constexpr double lopsided_share = 0.01;
 constexpr double lopsided_count = 2;
 constexpr double harmless_skewness = 0.4;
 constexpr double skewed_deviations = 2.5;
-constexpr double telling_error = 0.5;
+constexpr double telling_error = 0.65;
 constexpr double decisive_share = 0.5;
 constexpr double decisive_p = 1e-4;
 

@@ -49,7 +49,7 @@ bool lopsided_tails(const TileComparison& comparison);
 /// sign.
 bool unmet_tail(const TileComparison& comparison);
 
-/// Whether the darker side's skewness is known to no better than 0.5: fewer than 24 runs of one tile, or than six of four
+/// Whether the darker side's skewness is known to no better than 0.65: fewer than 15 runs of one tile, or than four of four
 /// tiles alike. The rule above is blind then, and so few runs may lie close together by chance. Never where seeds are
 /// common.
 bool unknown_tail(const TileComparison& comparison);

@@ -55,7 +55,7 @@ TEST_CASE("threads that cannot be started are an error with a reason, not an abo
     }
     const std::string scene = generate_scene(folder, "cornell");
     chmod(scene.c_str(), 0666);
-    const std::vector<std::string> render = {"render", scene, "-o", folder.file("a.exr"), "--spp", "1", "--size", "16"};
+    const std::vector<std::string> render = {"render", scene, "-o", folder.file("a.png"), "--spp", "1", "--size", "16"};
     const ProcessResult free = run_limited(folder, 1000, render);
     INFO(free.err);
     CHECK(free.exit_code == 0);
@@ -63,7 +63,7 @@ TEST_CASE("threads that cannot be started are an error with a reason, not an abo
         INFO("at most " << most << " threads");
         const ProcessResult result = run_limited(folder, most, render);
         CHECK(result.exit_code == 2);
-        CHECK(contains(result.err, "a.exr: cannot write: "));
+        CHECK(contains(result.err, "a.png: cannot write: "));
         CHECK(contains(result.err, " threads can be started: the limit of processes"));
     }
     const ProcessResult verify = run_limited(folder, 1, {"verify", scene, "--backends", "cpu", "--integrators", "brdf",

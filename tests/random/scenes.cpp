@@ -95,7 +95,7 @@ TEST_CASE("Random scenes have the oracle's means (first half)") {
     check_scenes(make_random_scene, 1, 14, cpu_and_oracle(), quick());
 }
 
-TEST_CASE("Random scenes have the oracle's means (second half)") {
+TEST_CASE("Random scenes have the oracle's means (second half)", "[nightly]") {
     check_scenes(make_random_scene, 101, 14, cpu_and_oracle(), quick());
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("Moving random scenes have the oracle's means (first half)") {
     check_scenes(make_moving_random_scene, 301, 5, cpu_and_oracle(), quick_moving());
 }
 
-TEST_CASE("Moving random scenes have the oracle's means (second half)") {
+TEST_CASE("Moving random scenes have the oracle's means (second half)", "[nightly]") {
     check_scenes(make_moving_random_scene, 401, 5, cpu_and_oracle(), quick_moving());
 }
 
