@@ -3,6 +3,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 namespace diptych::core::tests {
 
@@ -14,6 +15,16 @@ std::string whole(const std::filesystem::path& path) {
     std::ostringstream text;
     text << std::ifstream(path, std::ios::binary).rdbuf();
     return text.str();
+}
+
+template <typename T>
+T bytes_at(const std::vector<char>& bytes, std::size_t at) {
+    if (at > bytes.size() || bytes.size() - at < sizeof(T)) {
+        throw std::out_of_range("an accessor ends beyond its buffer");
+    }
+    T value;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
 }
 
 glm::dmat4 local_matrix(const json& node) {
@@ -77,12 +88,8 @@ double FileScene::number(const json& accessor, std::size_t element, std::size_t 
     const std::size_t components = type == "SCALAR" ? 1 : std::size_t(type.back() - '0');
     const int kind = accessor.at("componentType");
     const std::size_t size = kind == 5123 ? 2 : 4;
-    const char* at = bytes_.data() + view.value("byteOffset", std::size_t(0)) + (element * components + component) * size;
-    std::uint16_t word = 0;
-    float value = 0;
-    std::memcpy(&word, at, sizeof word);
-    std::memcpy(&value, at, sizeof value);
-    return kind == 5123 ? word : value;
+    const std::size_t at = view.value("byteOffset", std::size_t(0)) + (element * components + component) * size;
+    return kind == 5123 ? bytes_at<std::uint16_t>(bytes_, at) : bytes_at<float>(bytes_, at);
 }
 
 void FileScene::add_primitive(const json& primitive, const glm::dmat4& to_world) {
