@@ -62,29 +62,29 @@ install_missing() {
     apt_get install --no-install-recommends "$@" || die "could not install: $*"
 }
 
-# Prints a deb822 source for the backports of suite $1: the machine's own source of that suite, with only suite and
-# components replaced, so mirror, keys and options stay.
-backports_source() {
-    local suite="$1" uri
+# Prints a deb822 source of suite $2: the machine's own source of suite $1, with only suite and components replaced, so
+# mirror, keys and options stay.
+source_of_suite() {
+    local suite="$1" other="$2" uri
     uri="$(apt-get indextargets 'Created-By: Packages' 'Origin: Debian' "Release: $suite" 'Component: main' \
         --format '$(REPO_URI)' | head -n 1)"
     uri="${uri%/}"
     [ -n "$uri" ] || return 1
-    { cat /etc/apt/sources.list.d/*.sources 2>/dev/null || true; } | awk -v RS= -v suite="$suite" -v uri="$uri" '
+    { cat /etc/apt/sources.list.d/*.sources 2>/dev/null || true; } | awk -v RS= -v suite="$suite" -v other="$other" -v uri="$uri" '
         index($0, uri) && !/\nEnabled: *no/ && $0 ~ "(^|\n)Suites:[^\n]*[ \t]" suite "([ \t\n]|$)" {
             lines = split($0, line, "\n")
             for (i = 1; i <= lines; ++i) {
                 if (line[i] !~ /^[ \t]/) replaced = line[i] ~ /^(Suites|Components|Types):/
                 if (!replaced && line[i] !~ /^#/) print line[i]
             }
-            print "Types: deb\nSuites: " suite "-backports\nComponents: main"
+            print "Types: deb\nSuites: " other "\nComponents: main"
             found = 1
             exit
         }
         END { exit !found }' && return 0
-    { cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null || true; } | awk -v suite="$suite" -v uri="$uri" '
+    { cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null || true; } | awk -v suite="$suite" -v other="$other" -v uri="$uri" '
         $1 == "deb" && index($0, uri) && $0 ~ "[ \t]" suite "[ \t]" {
-            print "Types: deb\nURIs: " uri "\nSuites: " suite "-backports\nComponents: main"
+            print "Types: deb\nURIs: " uri "\nSuites: " other "\nComponents: main"
             if (match($0, /\[[^]]*\]/)) {
                 options = split(substr($0, RSTART + 1, RLENGTH - 2), option, " ")
                 for (i = 1; i <= options; ++i) {
@@ -138,7 +138,7 @@ install_mesa_from_backports() {
     local -a as_root=()
     [ "$(id -u)" -eq 0 ] || as_root=(sudo)
     if [ -z "$(apt-get indextargets "Release: $suite-backports" --format '$(REPO_URI)')" ]; then
-        text="$(backports_source "$suite")" || return 1
+        text="$(source_of_suite "$suite" "$suite-backports")" || return 1
         say "adding $file: Debian 12's own Mesa has no ray tracing on the CPU, its backports do"
         text="# Added by Diptych, for Mesa with ray tracing on the CPU."$'\n'"$text"
         printf '%s\n' "$text" | "${as_root[@]}" tee "$file" >/dev/null || return 1

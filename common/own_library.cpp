@@ -25,18 +25,18 @@ fs::path own_file() {
 
 // The dynamic linker alone would do, by RUNPATH, but looks in LD_LIBRARY_PATH first, where another version may lie; and
 // it asks for the RUNPATH of whoever calls dlopen, which under AddressSanitizer is the sanitizer.
-void* open_own_library(const std::string& name) {
+void* open_own_library(const std::string& name, int binding) {
     std::error_code error;
     const fs::path folder = fs::canonical(own_file(), error).parent_path();
     if (!error) {
         const fs::path above = folder.parent_path();  // test programs lie in a folder of the build tree
         for (const fs::path& place : {folder / name, above / DIPTYCH_LIBRARY_FOLDER / name, above / name}) {
             if (fs::exists(place, error)) {
-                return dlopen(place.c_str(), RTLD_LAZY | RTLD_LOCAL);
+                return dlopen(place.c_str(), binding | RTLD_LOCAL);
             }
         }
     }
-    return dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
+    return dlopen(name.c_str(), binding | RTLD_LOCAL);
 }
 
 }  // namespace diptych::core

@@ -22,7 +22,7 @@ constexpr unsigned fixed_threads = 4;
 
 const ImageLibrary& load() {
     require_threads(fixed_threads + machine_threads());
-    void* library = open_own_library(file_name);
+    void* library = open_own_library(file_name, RTLD_LAZY);
     if (library == nullptr) {
         fail(dlerror());
     }

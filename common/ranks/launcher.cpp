@@ -44,7 +44,7 @@ std::unique_ptr<RankChannel> join_ranks() {
     if (dlopen(mpi_name, RTLD_NOW | RTLD_GLOBAL) == nullptr) {
         fail(std::string(dlerror()) + "; Debian has it in the package openmpi-bin");
     }
-    void* const library = open_own_library(file_name);
+    void* const library = open_own_library(file_name, RTLD_NOW);
     if (library == nullptr) {
         fail(std::string(dlerror()) + "; Diptych is built with it where the package libopenmpi-dev is installed");
     }

@@ -49,9 +49,9 @@ bool lopsided_tails(const TileComparison& comparison);
 /// sign.
 bool unmet_tail(const TileComparison& comparison);
 
-/// Whether the darker side's skewness is known to no better than 0.65: fewer than 15 runs of one tile, or than four of four
-/// tiles alike. The rule above is blind then, and so few runs may lie close together by chance. Never where seeds are
-/// common.
+/// Whether the runs and tiles tell the darker side's skewness to no better than 0.65: fewer than 15 runs of one tile, or
+/// fewer than four runs of four tiles alike. Then unmet_tail is blind, and so few runs may lie close together by chance.
+/// Never where seeds are common.
 bool unknown_tail(const TileComparison& comparison);
 
 /// Whether one run holds over half of the image mean's variance on a side, and more than one of so few normal runs
@@ -61,8 +61,8 @@ bool single_run_decides(const TileComparison& comparison);
 
 /// Image mean, Fisher's combination and the least tile of every pair go through Holm's procedure together, so one false
 /// FAIL among all pairs has probability alpha at most. FAIL wants no power; PASS does. Under lopsided tails, tiles
-/// alone make no FAIL but INCONCLUSIVE; with an unmet or unknown tail nothing does but constants that differ. Where a single run
-/// decides, there is no PASS.
+/// alone make no FAIL but INCONCLUSIVE; with an unmet or unknown tail nothing does but constants that differ. Where a
+/// single run decides, there is no PASS.
 std::vector<PairVerdict> judge(std::span<const TileComparison> comparisons, const VerdictLimits& limits);
 
 /// FAIL where one fails, else INCONCLUSIVE where one is.

@@ -131,7 +131,7 @@ TEST_CASE("with a viewer that reads 4 kB in half a second, --time 8 ends within 
     const double watched = seconds_of_render(folder, scene, "8", &viewer);
     INFO(alone << " s alone, " << watched << " s with the viewer");
     CHECK(watched < alone + 1);
-    if (alone < 8.4) {  // else the machine is busy with other things
+    if (alone < 8.5) {  // else the machine is busy with other things
         CHECK(watched < 9);
     }
 }

@@ -118,7 +118,8 @@ TEST_CASE("Four runs of one tile that lie together by chance make no FAIL, 15 do
         by_p += comparison.global_p <= 1e-3 / 3 ? 1 : 0;
         failed += judge(std::span(&comparison, 1), {}).front().verdict == Verdict::fail ? 1 : 0;
     }
-    std::printf("four runs of few events, unbiased: the image fails in %d of %d by p; %d FAIL\n", by_p, repeats, failed);
+    std::printf("four runs of few events, unbiased: the image fails in %d of %d by p; %d FAIL\n", by_p, repeats,
+                failed);
     CHECK(by_p >= 8);    // what the rule is for: a third of alpha allows 0.7
     CHECK(failed <= 2);  // alpha
     const auto darker = [&](int runs) {

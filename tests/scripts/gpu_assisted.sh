@@ -2,7 +2,7 @@
 # tests/scripts/gpu_assisted.sh BUILD FOLDER...: runs the device tests of these folders under the validation layer's
 # GPU-assisted and synchronisation checks, and fails at any message. Exit code 77 where there is no layer that can.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+. "$(dirname "${BASH_SOURCE[0]}")/../../cmake/setup.sh"
 build=$1
 shift
 
@@ -14,16 +14,17 @@ version_in() {
 }
 is_new() { [ -n "$1" ] && [ "$(printf '%s\n' "$least" "$1" | sort -V | head -n 1)" = "$least" ]; }
 
-# Debian 13's layer, with the C and C++ libraries that it needs, beside the system's own.
+# Debian 13's layer, with the C and C++ libraries that it needs, beside the system's own: from this Debian's mirror.
 fetch_layer() {
-    local folder=$1 options key=/usr/share/keyrings/debian-archive-keyring.gpg
+    local folder=$1 suite options
     [ ! -d "$folder/root" ] || return 0
     [ "${DIPTYCH_NO_INSTALL:-0}" != 1 ] && command -v apt-get >/dev/null && command -v dpkg >/dev/null || return 1
-    mkdir -p "$folder/lists/partial" "$folder/cache/archives/partial"
-    echo "deb [signed-by=$key] http://deb.debian.org/debian trixie main" >"$folder/sources.list"
-    options=(-qq -o "Dir::Etc::SourceList=$folder/sources.list" -o Dir::Etc::SourceParts=/dev/null
+    suite=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
+    mkdir -p "$folder/sources" "$folder/lists/partial" "$folder/cache/archives/partial"
+    source_of_suite "$suite" trixie >"$folder/sources/trixie.sources" || return 1
+    options=(-qq -o Dir::Etc::SourceList=/dev/null -o "Dir::Etc::SourceParts=$folder/sources"
              -o "Dir::State::Lists=$folder/lists" -o "Dir::Cache=$folder/cache" -o Acquire::Languages=none)
-    (cd "$folder" && apt-get "${options[@]}" update &&
+    (cd "$folder" && rm -rf unpacked && apt-get "${options[@]}" update &&
         apt-get "${options[@]}" download vulkan-validationlayers libc6 libstdc++6 libgcc-s1 &&
         mkdir unpacked && for package in *.deb; do dpkg -x "$package" unpacked || exit 1; done &&
         mv unpacked root) >"$folder/log" 2>&1
@@ -32,7 +33,7 @@ fetch_layer() {
 runner=()
 version=$(version_in "${VK_LAYER_PATH:-/usr/share/vulkan/explicit_layer.d}")
 if ! is_new "$version"; then
-    layer=$root/build/validation-layer
+    layer=$diptych_root/build/validation-layer
     mkdir -p "$layer"
     if ! fetch_layer "$layer"; then
         echo "SKIPPED: the validation layer is ${version:-not installed}; $least or later is needed ($layer/log)"
