@@ -27,16 +27,16 @@ constexpr std::array<Magic, 7> magics = {{{"\x89PNG"sv, "png"},
                                           {"MM\0*"sv, "tiff"},
                                           {"\x76\x2f\x31\x01"sv, "openexr"}}};
 
-bool has(std::span<const std::uint8_t> bytes, std::string_view magic, std::size_t at) {
-    return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
+bool has(std::span<const std::uint8_t> bytes, std::string_view mark, std::size_t at) {
+    return bytes.size() >= at + mark.size() && std::memcmp(bytes.data() + at, mark.data(), mark.size()) == 0;
 }
 
 }  // namespace
 
 std::string picture_format(std::span<const std::uint8_t> beginning) {
-    for (const Magic& magic : magics) {
-        if (has(beginning, magic.bytes, 0)) {
-            return std::string(magic.format);
+    for (const Magic& known : magics) {
+        if (has(beginning, known.bytes, 0)) {
+            return std::string(known.format);
         }
     }
     return has(beginning, "RIFF", 0) && has(beginning, "WEBP", 8) ? "webp" : "";

@@ -11,7 +11,7 @@
 namespace diptych::core {
 namespace {
 
-[[noreturn]] void fail(const std::string& reason) {
+[[noreturn]] void refuse(const std::string& reason) {
     throw std::runtime_error(reason);
 }
 
@@ -28,7 +28,7 @@ std::string quoted(std::string_view line) {
 std::string_view next_line(std::string_view bytes, size_t& at) {
     const size_t end = bytes.find('\n', at);
     if (end == std::string_view::npos) {
-        fail("the header has no end");
+        refuse("the header has no end");
     }
     std::string_view line = bytes.substr(at, end - at);
     at = end + 1;
@@ -44,7 +44,7 @@ std::vector<double> numbers(std::string_view line, std::string_view text, size_t
     std::vector<double> values(count);
     for (double& value : values) {
         if (!(stream >> value) || !std::isfinite(value)) {
-            fail("the header's line " + quoted(line) + " wants " + std::to_string(count) + " numbers");
+            refuse("the header's line " + quoted(line) + " wants " + std::to_string(count) + " numbers");
         }
     }
     return values;
@@ -52,7 +52,7 @@ std::vector<double> numbers(std::string_view line, std::string_view text, size_t
 
 double factor(std::string_view line, double value) {
     if (!(value > 0)) {
-        fail("the header's line " + quoted(line) + " divides by a value that is not positive");
+        refuse("the header's line " + quoted(line) + " divides by a value that is not positive");
     }
     return value;
 }
@@ -62,7 +62,7 @@ bool read_format(std::string_view line, std::string_view value) {
     const size_t end = value.find_last_not_of(" \t");
     value = begin == std::string_view::npos ? "" : value.substr(begin, end - begin + 1);
     if (value != "32-bit_rle_rgbe" && value != "32-bit_rle_xyze") {
-        fail("the header's line " + quoted(line) + " is neither FORMAT=32-bit_rle_rgbe nor FORMAT=32-bit_rle_xyze");
+        refuse("the header's line " + quoted(line) + " is neither FORMAT=32-bit_rle_rgbe nor FORMAT=32-bit_rle_xyze");
     }
     return value == "32-bit_rle_xyze";
 }
@@ -75,7 +75,7 @@ std::optional<Chromaticities> read_primaries(std::string_view line, std::string_
     }
     const Chromaticities space{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
     if (!is_color_space(space)) {
-        fail("the header's line " + quoted(line) + " spans no colour space");
+        refuse("the header's line " + quoted(line) + " spans no colour space");
     }
     return space;
 }
@@ -89,14 +89,14 @@ void read_resolution(std::string_view line, RadianceHeader& header) {
                            size <= 0x7fffffff && (direction[0] == '+' || direction[0] == '-') &&
                            (direction[1] == 'X' || direction[1] == 'Y');
         if (!whole) {
-            fail("the resolution line " + quoted(line) + " is not of the kind '-Y 512 +X 1024'");
+            refuse("the resolution line " + quoted(line) + " is not of the kind '-Y 512 +X 1024'");
         }
         axis->vertical = direction[1] == 'Y';
         axis->reversed = axis->vertical == (direction[0] == '+');  // +Y points upwards, and the top row is row 0
         axis->size = static_cast<int>(size);
     }
     if (header.scanlines.vertical == header.pixels.vertical) {
-        fail("the resolution line " + quoted(line) + " names one axis twice");
+        refuse("the resolution line " + quoted(line) + " names one axis twice");
     }
 }
 
@@ -105,7 +105,7 @@ void read_resolution(std::string_view line, RadianceHeader& header) {
 RadianceHeader read_radiance_header(std::string_view bytes) {
     RadianceHeader header;
     if (bytes.substr(0, 2) != "#?") {
-        fail("a Radiance picture begins with #?, and this file does not");
+        refuse("a Radiance picture begins with #?, and this file does not");
     }
     bool has_format = false;
     size_t at = 0;
@@ -129,11 +129,11 @@ RadianceHeader read_radiance_header(std::string_view bytes) {
         } else if (value_of("PRIMARIES=", value)) {
             header.primaries = read_primaries(line, value);
         } else if (value_of("GAMMA=", value) && numbers(line, value, 1)[0] != 1) {
-            fail("the header's line " + quoted(line) + " says that the pixels are display values, not radiance");
+            refuse("the header's line " + quoted(line) + " says that the pixels are display values, not radiance");
         }
     }
     if (!has_format) {
-        fail("the header has no FORMAT line");
+        refuse("the header has no FORMAT line");
     }
     read_resolution(next_line(bytes, at), header);
     header.size = at;

@@ -102,7 +102,7 @@ Settings changed(Settings settings, const py::kwargs& changes) {
     return settings;
 }
 
-std::string shown(const Settings& settings) {
+std::string settings_text(const Settings& settings) {
     std::string parts;
     for (const Field& field : fields()) {
         const py::object value = field.get(settings);
@@ -146,7 +146,7 @@ void bind_settings(py::module_& module) {
                                   "Settings(integrator='restir', size=(640, 360), seed=7)\n");
     settings.def(py::init([](const py::kwargs& values) { return changed(Settings{}, values); }));
     settings.def("replace", &changed, "The same settings but for the changes.");
-    settings.def("__repr__", &shown);
+    settings.def("__repr__", &settings_text);
     settings.def(
         "__eq__", [](const Settings& a, const Settings& b) { return a == b; }, py::is_operator());
     settings.attr("__hash__") = py::none();
