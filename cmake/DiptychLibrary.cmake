@@ -35,3 +35,17 @@ function(diptych_loaded_library name)
   target_link_libraries(${name} PRIVATE diptych_options ${ARG_LINK})
   set_target_properties(${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
+
+# diptych_interface(VARIABLE HEADER...): the version and a digest of the headers through which the program talks to an object
+# that it opens itself. A program and an object of two builds may have one version and two interfaces, and then crash.
+function(diptych_interface variable)
+  set(contents "")
+  foreach(header IN LISTS ARGN)
+    file(READ ${header} text)
+    string(APPEND contents "${text}")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+  endforeach()
+  string(SHA256 digest "${contents}")
+  string(SUBSTRING ${digest} 0 8 digest)
+  set(${variable} ${PROJECT_VERSION}-${digest} PARENT_SCOPE)
+endfunction()

@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <string_view>
+
 #include "error.h"
 #include "image/oiio/entry.h"
 #include "own_library.h"
@@ -26,12 +28,12 @@ const ImageLibrary& load() {
     if (library == nullptr) {
         fail(dlerror());
     }
+    const auto* interface = static_cast<const char*>(dlsym(library, image_library_interface));
     const auto entry = reinterpret_cast<ImageLibraryEntry*>(dlsym(library, image_library_entry));
-    const ImageLibrary* images = entry == nullptr ? nullptr : entry(DIPTYCH_VERSION);
-    if (images == nullptr) {
-        fail("it belongs to another version than " DIPTYCH_VERSION);
+    if (entry == nullptr || interface == nullptr || interface != std::string_view(DIPTYCH_IMAGES_INTERFACE)) {
+        fail("it belongs to another build than this program, which needs the interface " DIPTYCH_IMAGES_INTERFACE);
     }
-    return *images;  // stays loaded until the process ends
+    return *entry();  // stays loaded until the process ends
 }
 
 }  // namespace

@@ -69,9 +69,8 @@ public:
     virtual Bytes encode_png(const ByteImage& image, bool srgb) const = 0;
 };
 
-/// Loads libdiptych_images.so on the first call. The dynamic linker looks for it as for every library: in
-/// LD_LIBRARY_PATH, in the program's RUNPATH, in the system's folders. Throws an Error that names the library where it
-/// is missing.
+/// Loads libdiptych_images.so on the first call, from where open_own_library finds it. Throws an Error that names the
+/// library where it is missing or belongs to another build.
 const ImageLibrary& image_library();
 
 }  // namespace diptych::core

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <stdexcept>
+#include <string_view>
 
 #include "error.h"
 #include "own_library.h"
@@ -48,18 +49,16 @@ std::unique_ptr<RankChannel> join_ranks() {
     if (library == nullptr) {
         fail(std::string(dlerror()) + "; Diptych is built with it where the package libopenmpi-dev is installed");
     }
+    const auto* interface = static_cast<const char*>(dlsym(library, rank_library_interface));
     const auto entry = reinterpret_cast<RankLibraryEntry*>(dlsym(library, rank_library_entry));
-    if (entry == nullptr) {
-        fail("it is of another version");
+    if (entry == nullptr || interface == nullptr || interface != std::string_view(DIPTYCH_RANKS_INTERFACE)) {
+        fail("it belongs to another build than this program, which needs the interface " DIPTYCH_RANKS_INTERFACE);
     }
     std::unique_ptr<RankChannel> channel;
     try {
-        channel.reset(entry(DIPTYCH_VERSION));
+        channel.reset(entry());
     } catch (const std::runtime_error& error) {
         fail(error.what());
-    }
-    if (channel == nullptr) {
-        fail("it belongs to another version than " DIPTYCH_VERSION);
     }
     if (channel->place().size == 1) {
         fail("the launcher belongs to another MPI than Open MPI, or was built without PMIx");

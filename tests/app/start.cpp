@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 #include "catch.h"
@@ -131,6 +132,19 @@ TEST_CASE("the library for image files is found beside the program, in ../lib an
         fs::copy_file(library, elsewhere.path() / library_name);
         check_renders(render(folder, copy, {"LD_LIBRARY_PATH=" + elsewhere.path().string()}));
     }
+}
+
+TEST_CASE("a library for image files of another build is refused by name", "[app]") {
+    const TemporaryFolder folder;
+    const fs::path copy = copied_program(folder);
+    std::string bytes = file_text(program.parent_path() / library_name);
+    // The version and the digest of the interface, as in 0.1.0-1a2b3c4d.
+    std::smatch interface;
+    REQUIRE(std::regex_search(bytes, interface, std::regex("[0-9]+\\.[0-9]+\\.[0-9]+-[0-9a-f]{8}")));
+    const auto last = static_cast<std::size_t>(interface.position() + interface.length() - 1);
+    bytes[last] = bytes[last] == '0' ? '1' : '0';
+    write_text(copy.parent_path() / library_name, bytes);
+    check_refusal(render(folder, copy), 2, {library_name, "another build"});
 }
 
 TEST_CASE("without the library for image files, what needs none works and the rest is refused before it starts",

@@ -2,8 +2,6 @@
 
 #include <OpenImageIO/imageio.h>
 
-#include <string_view>
-
 #include "image/oiio/encode.h"
 #include "image/oiio/picture_file.h"
 
@@ -29,9 +27,13 @@ public:
 }  // namespace
 }  // namespace diptych::core
 
-extern "C" [[gnu::visibility("default")]] const diptych::core::ImageLibrary* diptych_image_library(const char* version);
+extern "C" {
+[[gnu::visibility("default")]] extern const char diptych_image_interface[];
+const char diptych_image_interface[] = DIPTYCH_IMAGES_INTERFACE;
 
-const diptych::core::ImageLibrary* diptych_image_library(const char* version) {
+[[gnu::visibility("default")]] const diptych::core::ImageLibrary* diptych_image_library();
+const diptych::core::ImageLibrary* diptych_image_library() {
     static const diptych::core::OpenImageIO library;
-    return std::string_view(version) == DIPTYCH_VERSION ? &library : nullptr;
+    return &library;
+}
 }

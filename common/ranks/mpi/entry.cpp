@@ -1,11 +1,13 @@
 #include "ranks/mpi/entry.h"
 
-#include <string_view>
-
 #include "ranks/mpi/mpi_channel.h"
 
-extern "C" [[gnu::visibility("default")]] diptych::core::RankChannel* diptych_rank_library(const char* version);
+extern "C" {
+[[gnu::visibility("default")]] extern const char diptych_rank_interface[];
+const char diptych_rank_interface[] = DIPTYCH_RANKS_INTERFACE;
 
-diptych::core::RankChannel* diptych_rank_library(const char* version) {
-    return std::string_view(version) == DIPTYCH_VERSION ? new diptych::core::MpiChannel() : nullptr;
+[[gnu::visibility("default")]] diptych::core::RankChannel* diptych_rank_library();
+diptych::core::RankChannel* diptych_rank_library() {
+    return new diptych::core::MpiChannel();
+}
 }
