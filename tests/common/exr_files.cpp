@@ -1,4 +1,9 @@
 // OpenEXR files whose picture is not simply all of their first part.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
 #include <limits>
 #include <memory>
 
@@ -13,6 +18,7 @@
 #include "image/picture_name.h"
 #include "image/size_claim.h"
 #include "image_fixtures.h"
+#include "sanitized.h"
 #include "scene/environment_load.h"
 
 using namespace diptych::core;
@@ -21,6 +27,27 @@ using namespace diptych::core::image_tests;
 namespace {
 
 constexpr PixelWindow whole{0, 0, 4, 2};
+
+/// While it lives, this process may take so many bytes of address space beyond what it has. Sanitizers need theirs, and
+/// are not limited.
+class AddressSpaceLimit {
+public:
+    explicit AddressSpaceLimit(rlim_t more) {
+        getrlimit(RLIMIT_AS, &old_);
+        std::size_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const rlimit limit{pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + more, old_.rlim_max};
+        if (!tests::sanitized) {
+            setrlimit(RLIMIT_AS, &limit);
+        }
+    }
+    AddressSpaceLimit(const AddressSpaceLimit&) = delete;
+    AddressSpaceLimit& operator=(const AddressSpaceLimit&) = delete;
+    ~AddressSpaceLimit() { setrlimit(RLIMIT_AS, &old_); }
+
+private:
+    rlimit old_{};
+};
 
 std::filesystem::path write(const TemporaryFolder& folder, const std::vector<ExrPart>& parts) {
     write_file_atomically(folder / "a.exr", exr_bytes(parts));
@@ -166,6 +193,52 @@ TEST_CASE("an EXR is refused before a block of its rows is allocated that it can
     CHECK(set(window, 8, std::string("\xff\xff\1\0\0\0\0\0", 8)).empty());  // a row of 131072 pixels, 1.5 MB
     CHECK(contains(set(compression, 0, "\x9"), "cannot hold the 131072x256 pixels"));
     CHECK(contains(set(window, 8, std::string("\0\0\x0f\0", 4)), "131072 a side"));
+}
+
+TEST_CASE("reading a wide EXR takes memory for the rows that it has", "[image]") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "wide.exr";
+    constexpr int width = 100'000;
+    constexpr int height = 3;
+    constexpr int channels = 25;
+    // 256 rows of the three channels that are read would take 300 MB.
+    OIIO::ImageSpec spec(width, height, channels, OIIO::TypeFloat);
+    spec.channelnames = {"B", "G", "R"};
+    for (char name = 'a'; spec.channelnames.size() < channels; ++name) {
+        spec.channelnames.emplace_back(1, name);
+    }
+    if (GENERATE(false, true)) {  // of which some are converted
+        spec.channelformats.assign(channels, OIIO::TypeFloat);
+        std::fill_n(spec.channelformats.begin(), 2, OIIO::TypeHalf);
+        spec.channelformats[3] = OIIO::TypeUInt32;
+    }
+    spec.attribute("compression", "none");  // OpenEXR allocates a compressed block of rows for each of its threads
+    std::vector<float> pixels;
+    for (int pixel = 0; pixel < width * height; ++pixel) {
+        for (int channel = 0; channel < channels; ++channel) {
+            pixels.push_back(static_cast<float>((pixel / 7 + channel) % 2048));
+        }
+    }
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file);
+    REQUIRE((output && output->open(file, spec)));
+    REQUIRE(output->write_image(OIIO::TypeFloat, pixels.data()));
+    REQUIRE(output->close());
+
+    read(folder, {constant_part(whole, {{"Y", 1.0F}})});  // starts the threads, which reserve memory
+    LayeredImage image;
+    {
+        const AddressSpaceLimit limit(250'000'000);
+        image = read_image(file);
+    }
+    REQUIRE(image.color.width == width);
+    REQUIRE(image.color.height == height);
+    std::size_t wrong = 0;
+    for (std::size_t pixel = 0; pixel < pixels.size() / channels; ++pixel) {
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            wrong += image.color.data[3 * pixel + channel] != pixels[channels * pixel + 2 - channel];
+        }
+    }
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("a list of strings or a preview in an EXR has the size that it claims", "[image]") {

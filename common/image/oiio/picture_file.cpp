@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <mutex>
+#include <vector>
 
 #include "image/oiio/fail.h"
 
@@ -67,9 +68,46 @@ public:
 
 private:
     void read(size_t part, int begin, int end, OIIO::TypeDesc type, void* values) {
-        if (!input_->read_image(static_cast<int>(part), 0, begin, end, type, values)) {
+        const OIIO::ImageSpec spec = input_->spec(static_cast<int>(part));
+        const bool done = spec.tile_width > 0
+                              ? input_->read_image(static_cast<int>(part), 0, begin, end, type, values)
+                              : read_rows(static_cast<int>(part), spec, begin, end, type, static_cast<char*>(values));
+        if (!done) {
             fail_by_library(input_->geterror());
         }
+    }
+
+    /// As read_image, which would allocate at least 256 rows of all channels, whatever the picture's height.
+    bool read_rows(int part, const OIIO::ImageSpec& spec, int begin, int end, OIIO::TypeDesc type, char* values) {
+        const auto width = static_cast<std::size_t>(spec.width);
+        const std::size_t stored_pixel = spec.pixel_bytes(begin, end, true);
+        const std::size_t pixel = type.size() * static_cast<std::size_t>(end - begin);
+        constexpr std::size_t block_bytes = 16U << 20U;
+        const std::size_t fitting = block_bytes / (stored_pixel * width);
+        // The rows that EXR's longest compression packs together: each block is decompressed once.
+        const int rows = std::min(spec.height, std::max(256, static_cast<int>(std::min<std::size_t>(fitting, 1U << 20U))));
+        std::vector<char> stored(stored_pixel * width * static_cast<std::size_t>(rows));
+        for (int row = 0; row < spec.height; row += rows) {
+            const int count = std::min(rows, spec.height - row);
+            if (!input_->read_native_scanlines(part, 0, spec.y + row, spec.y + row + count, 0, begin, end,
+                                               stored.data())) {
+                return false;
+            }
+            char* to = values + static_cast<std::size_t>(row) * width * pixel;
+            std::size_t at = 0;  // of a channel within a stored pixel
+            for (int channel = begin; channel < end; ++channel) {
+                const OIIO::TypeDesc format = spec.channelformat(channel);
+                if (!OIIO::convert_image(1, spec.width, count, 1, stored.data() + at, format,
+                                         static_cast<OIIO::stride_t>(stored_pixel), OIIO::AutoStride, OIIO::AutoStride,
+                                         to, type, static_cast<OIIO::stride_t>(pixel), OIIO::AutoStride,
+                                         OIIO::AutoStride)) {
+                    return false;
+                }
+                at += format.size();
+                to += type.size();
+            }
+        }
+        return true;
     }
 
     std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;  // before input_, which is to go first
