@@ -52,7 +52,8 @@ std::vector<std::string> backend_names() {
     return {"cpu", "vulkan", "oracle"};
 }
 
-std::unique_ptr<Renderer> open_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request) {
+std::unique_ptr<Renderer> open_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request,
+                                        [[maybe_unused]] const BusyHook& busy) {
     // This thread works too.
     require_threads(request.threads > 0 ? static_cast<unsigned>(request.threads) - 1 : machine_threads() - 1);
     if (request.backend == "oracle") {
@@ -67,6 +68,7 @@ std::unique_ptr<Renderer> open_renderer(const Scene& scene, const PackedScene& p
     options.device = request.device;
     options.validation = request.validation;
     options.group_instances = request.group_instances;
+    options.busy = busy;
     return make_vulkan_renderer(keep_device(options), packed, options);
 #else
     throw Error("backend vulkan: this build has no Vulkan (DIPTYCH_VULKAN=OFF); use the backend cpu");

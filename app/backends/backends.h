@@ -17,9 +17,10 @@ namespace diptych::core::app {
 std::vector<std::string> backend_names();
 
 /// The renderer of the request's backend, device, threads and oracle mode. The panels read the packed scene, the oracle
-/// the logical one it was made of; both must outlive the renderer. From any thread. Throws NoDevice where there is no
-/// suitable one, Error where the program was built without that backend.
-std::unique_ptr<Renderer> open_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request);
+/// the logical one it was made of; both must outlive the renderer. From any thread. `busy` is told of steps that may
+/// take long. Throws NoDevice where there is no suitable one, Error where the program was built without that backend.
+std::unique_ptr<Renderer> open_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request,
+                                        const BusyHook& busy = {});
 
 /// Opens renderers of that request, under the settings that a session asks for.
 MakeRenderer renderer_maker(const RenderRequest& request);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "console/exit_codes.h"
 #include "console/report.h"
 
@@ -20,15 +22,16 @@ void replace_renderers(RendererMaker maker) {
     replacement() = std::move(maker);
 }
 
-std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request) {
-    return replacement() ? replacement()(scene, packed, request) : open_renderer(scene, packed, request);
+std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request,
+                                        const BusyHook& busy) {
+    return replacement() ? replacement()(scene, packed, request) : open_renderer(scene, packed, request, busy);
 }
 
-MakeRenderer renderer_maker_of(const RenderRequest& request) {
-    return [request](const Scene& scene, const PackedScene& packed, const RenderSettings& settings) {
+MakeRenderer renderer_maker_of(const RenderRequest& request, BusyHook busy) {
+    return [request, busy = std::move(busy)](const Scene& scene, const PackedScene& packed, const RenderSettings& settings) {
         RenderRequest asked = request;
         asked.settings = settings;
-        return make_renderer(scene, packed, asked);
+        return make_renderer(scene, packed, asked, busy);
     };
 }
 

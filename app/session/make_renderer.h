@@ -9,7 +9,8 @@
 namespace diptych::core::app {
 
 /// open_renderer, or what tests have put in its place.
-std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request);
+std::unique_ptr<Renderer> make_renderer(const Scene& scene, const PackedScene& packed, const RenderRequest& request,
+                                        const BusyHook& busy = {});
 
 using RendererMaker = std::function<std::unique_ptr<Renderer>(const Scene& scene, const PackedScene& packed,
                                                               const RenderRequest& request)>;
@@ -18,7 +19,7 @@ using RendererMaker = std::function<std::unique_ptr<Renderer>(const Scene& scene
 void replace_renderers(RendererMaker maker);
 
 /// Makes renderers of that request, under the settings that a session asks for.
-MakeRenderer renderer_maker_of(const RenderRequest& request);
+MakeRenderer renderer_maker_of(const RenderRequest& request, BusyHook busy = {});
 
 /// What the validation layer had to say during the run, as a line on stderr where that is anything. Returns
 /// `exit_code`, or exit_check_failed where it was exit_done and there were messages. Call it when all renderers are

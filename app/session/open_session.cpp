@@ -28,19 +28,22 @@ SessionHooks reporting_hooks() {
     return {.busy = {}, .warn = report_once};
 }
 
-Session open_session(const Scene& scene, const RenderRequest& request, const MakeRenderer& instead) {
-    return {scene, request.settings, instead ? instead : renderer_maker_of(request), reporting_hooks()};
+Session open_session(const Scene& scene, const RenderRequest& request, const MakeRenderer& instead,
+                     const BusyHook& busy) {
+    return {scene, request.settings, instead ? instead : renderer_maker_of(request, busy),
+            {.busy = busy, .warn = report_once}};
 }
 
 Session open_session(const Scene& scene, const RenderRequest& request, const Moment& moment,
-                     const MakeRenderer& instead) {
-    return {scene, request.settings, instead ? instead : renderer_maker_of(request), moment, reporting_hooks()};
+                     const MakeRenderer& instead, const BusyHook& busy) {
+    return {scene,  request.settings, instead ? instead : renderer_maker_of(request, busy),
+            moment, {.busy = busy, .warn = report_once}};
 }
 
-Session open_played(const Scene& scene, RenderRequest request, const MakeRenderer& instead) {
+Session open_played(const Scene& scene, RenderRequest request, const MakeRenderer& instead, const BusyHook& busy) {
     request.settings.moves = request.backend != "oracle" && chains_frames(request.settings) &&
                              (moves(scene) || request.orbit != 0);
-    return open_session(scene, request, Moment(), instead);
+    return open_session(scene, request, Moment(), instead, busy);
 }
 
 Session open_requested(const Scene& scene, const RenderRequest& request, bool plays) {

@@ -11,16 +11,19 @@ namespace diptych::core::app {
 SessionHooks reporting_hooks();
 
 /// At rest; `scene` must live as long. `instead`, unless empty, makes the renderer. Throws NoDevice, DeviceLost and Error.
-Session open_session(const Scene& scene, const RenderRequest& request, const MakeRenderer& instead = {});
+/// `busy` is told of steps that may take long.
+Session open_session(const Scene& scene, const RenderRequest& request, const MakeRenderer& instead = {},
+                     const BusyHook& busy = {});
 
 /// To be shown other moments, `moment` first.
 Session open_session(const Scene& scene, const RenderRequest& request, const Moment& moment,
-                     const MakeRenderer& instead = {});
+                     const MakeRenderer& instead = {}, const BusyHook& busy = {});
 
 /// Either, for engines (measure/open_session.h).
 Session open_requested(const Scene& scene, const RenderRequest& request, bool plays);
 
 /// To play the frames of the request's sequence: settings.moves is put in place where they look back to one another.
-Session open_played(const Scene& scene, RenderRequest request, const MakeRenderer& instead = {});
+Session open_played(const Scene& scene, RenderRequest request, const MakeRenderer& instead = {},
+                    const BusyHook& busy = {});
 
 }  // namespace diptych::core::app

@@ -143,7 +143,7 @@ void PanelEngine::open_scene() {
     shot_.device_film.reset();
     scene_ = job_->scene;
     SessionHooks hooks = reporting_hooks();
-    hooks.busy = [this](const char* what) { say_busy(what); };
+    hooks.busy = [this](const std::string& what) { say_busy(what); };
     session_.emplace(
         *scene_, settings(),
         [this](const Scene&, const PackedScene& packed, const RenderSettings&) { return factory_(packed); },
@@ -233,7 +233,7 @@ void PanelEngine::look() {
     device_looks_.spent(begin, now_seconds());
 }
 
-void PanelEngine::say_busy(const char* what) {
+void PanelEngine::say_busy(const std::string& what) {
     shot_.busy = what;
     publish_(std::make_shared<const PanelShot>(shot_));
 }

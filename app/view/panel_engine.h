@@ -68,7 +68,7 @@ private:
     void learn(std::uint32_t samples, double seconds);
     void publish(bool first);
     void look();
-    void say_busy(const char* what);
+    void say_busy(const std::string& what);
     /// Samples that still have an index.
     std::uint32_t samples_left() const { return ~0U - (session_ ? session_->first_sample() : 0) - samples_; }
     RenderSettings settings() const { return panel_settings(job_->state.request.settings, seed_offset_, divisor_); }

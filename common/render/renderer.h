@@ -36,6 +36,9 @@ struct RendererCosts {
     std::uint64_t pass_bytes = 0;          // of these, what passes hand on to each other
 };
 
+/// Called before a step that may take long, with what it is: "compiling 9 pipelines".
+using BusyHook = std::function<void(const std::string& what)>;
+
 /// The same rays twice: inside the integrator, and alone.
 struct TraversalBench {
     std::uint64_t rays = 0;

@@ -26,7 +26,7 @@ Session::Session(const Scene& scene, const RenderSettings& settings, MakeRendere
     chained_ = chains_frames(settings_) && renderer_->capabilities().chains;
 }
 
-void Session::say(const char* what) const {
+void Session::say(const std::string& what) const {
     if (hooks_.busy) {
         hooks_.busy(what);
     }

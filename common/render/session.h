@@ -20,7 +20,7 @@ using MakeRenderer =
     std::function<std::unique_ptr<Renderer>(const Scene& scene, const PackedScene& packed, const RenderSettings&)>;
 
 struct SessionHooks {
-    std::function<void(const char* what)> busy;                       // before a step that may take long
+    BusyHook busy = {};
     std::function<void(const std::vector<std::string>& lines)> warn;  // of each pack: what was left out
 };
 
@@ -93,7 +93,7 @@ private:
     void pack_anew();
     void begin_picture(bool goes_on);
     void settle();
-    void say(const char* what) const;
+    void say(const std::string& what) const;
 
     const Scene* source_;  // at rest
     MakeRenderer make_;

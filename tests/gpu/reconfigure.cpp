@@ -126,10 +126,15 @@ TEST_CASE("Settings met before compile nothing, on the device") {
     RenderSettings path = path_settings();
     RenderSettings restir = path;
     restir.integrator = Integrator::restir;
-    PathRenderer renderer(open_test_gpu(), pack_scene(scene, path));
+    std::vector<std::string> steps;
+    PathRendererOptions options;
+    options.busy = [&](const std::string& what) { steps.push_back(what); };
+    PathRenderer renderer(open_test_gpu(), pack_scene(scene, path), options);
     CHECK(renderer.pipelines_compiled() == 5);
+    CHECK(steps == std::vector<std::string>{"building acceleration structures", "compiling 5 pipelines"});
     const Film first = picture_of(renderer);
     renderer.reconfigure(pack_scene(scene, restir));
+    CHECK(steps.back() == "compiling 12 pipelines");
     const std::size_t compiled = renderer.pipelines_compiled();
     CHECK(compiled == 17);
     const Film resampled = picture_of(renderer);
@@ -138,6 +143,7 @@ TEST_CASE("Settings met before compile nothing, on the device") {
     renderer.reconfigure(pack_scene(scene, restir));
     CHECK(same_film(picture_of(renderer), resampled));
     CHECK(renderer.pipelines_compiled() == compiled);
+    CHECK(steps.size() == 6);  // and three steps of taking over other settings
     check_no_validation_messages();
 }
 

@@ -91,7 +91,7 @@ void PassPipelines::want(const ComputePipeline*& place, Spirv shader) {
                            }});
 }
 
-std::size_t PassPipelines::complete() {
+std::size_t PassPipelines::complete(const std::function<void(std::size_t)>& before) {
     std::vector<const Wanted*> missing;
     for (const Wanted& wanted : wanted_) {
         if (!wanted.take()) {
@@ -100,6 +100,9 @@ std::size_t PassPipelines::complete() {
     }
     if (missing.empty()) {
         return 0;
+    }
+    if (before) {
+        before(missing.size());
     }
     std::vector<Compiled> compiled = compile(missing);
     for (std::size_t i = 0; i < missing.size(); ++i) {

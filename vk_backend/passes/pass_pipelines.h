@@ -24,9 +24,9 @@ public:
     void want(const TracePipeline*& place, Spirv ray_generation);
     void want(const ComputePipeline*& place, Spirv shader);
 
-    /// Takes the pipelines from the device's store, for which it compiles those that are missing. Returns the number of
-    /// compiled ones.
-    std::size_t complete();
+    /// Takes the pipelines from the device's store, for which it compiles those that are missing. `before`, unless
+    /// empty, is called with their number before they are compiled. Returns the number of compiled ones.
+    std::size_t complete(const std::function<void(std::size_t missing)>& before = {});
 
 private:
     using Compiled = vk::raii::Pipeline;

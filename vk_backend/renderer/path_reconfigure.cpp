@@ -20,6 +20,7 @@ void PathRenderer::reconfigure(const PackedScene& packed) {
     constants_ = packed.constants;
     features_ = packed.features;
     const Stopwatch building;
+    say("uploading what differs of the scene");
     in_context("uploading what differs of the scene", [&] { replace_scene(*gpu_, packed, scene_); });
     in_context("building acceleration structures", [&] { replace_structures_of(packed); });
     in_context("making the film", [&] { replace_film(); });

@@ -17,6 +17,7 @@ InstanceGroups chosen_groups(const Gpu& gpu, const PackedScene& packed, Grouping
 
 PathRendererOptions with_options(PathRendererOptions changes, const VulkanOptions& options) {
     changes.grouping = options.group_instances ? changes.grouping : Grouping::nowhere;
+    changes.busy = options.busy;
     return changes;
 }
 
@@ -41,6 +42,7 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
     in_context("planning the memory",
                [&] { require_memory(*gpu_, packed, chosen_groups(*gpu_, packed, changes_.grouping)); });
     upkeep_ = std::make_unique<CommandRing>(*gpu_);
+    say("building acceleration structures");
     in_context("uploading the scene", [&] { scene_ = upload_scene(*gpu_, packed); });
     in_context("building acceleration structures", [&] { build_structures(packed); });
     const auto size = glm::ivec2(constants_.size);
@@ -61,6 +63,12 @@ PathRenderer::PathRenderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed, 
             *gpu_, [this](std::uint64_t work, double seconds) { speed_.learn(work, seconds); });
     });
     costs_.compile_seconds = compiling.seconds();
+}
+
+void PathRenderer::say(const std::string& what) const {
+    if (changes_.busy) {
+        changes_.busy(what);
+    }
 }
 
 void PathRenderer::build_structures(const PackedScene& packed) {
@@ -172,7 +180,9 @@ void PathRenderer::choose_pipelines() {
         }
         pipelines.want(wave_pipelines_.film, shader_binary("wave_film.comp"));
     }
-    pipelines_compiled_ += pipelines.complete();
+    pipelines_compiled_ += pipelines.complete([this](std::size_t count) {
+        say("compiling " + std::to_string(count) + (count == 1 ? " pipeline" : " pipelines"));
+    });
 }
 
 Structures PathRenderer::structures() const {

@@ -30,11 +30,12 @@ enum class Grouping { nowhere, on_gpus, anywhere };
 /// a test anywhere.
 enum class DeviceFill { on_gpus, anywhere };
 
-/// Settings that tests change.
+/// What tests change, and what is told of long steps.
 struct PathRendererOptions {
     std::uint64_t slice_budget = 0;  // pixel samples per dispatch, independent of the measured speed
     Grouping grouping = Grouping::on_gpus;
     DeviceFill fill = DeviceFill::on_gpus;
+    BusyHook busy = {};
 };
 
 class PathRenderer final : public Renderer {
@@ -72,6 +73,7 @@ public:
 
 private:
     PipelineConstants pipeline_constants(bool record_rays) const;
+    void say(const std::string& what) const;
     void choose_pipelines();
     Structures structures() const;
     void bind();

@@ -18,6 +18,7 @@ struct VulkanOptions {
     std::string device;           // "" the best, else an index or a part of the name
     bool validation = false;      // core and synchronisation validation; DIPTYCH_VALIDATION=1 asks for it too
     bool group_instances = true;  // see instance_groups.h; does not change the picture
+    BusyHook busy = {};           // of the thread that makes a renderer or reconfigures it
 };
 
 /// Opens the device that the options name. Throws NoDevice or Error.
@@ -31,8 +32,8 @@ bool is_lost(const Gpu& gpu);
 /// that can be known, and which then leaves nothing behind; Error if a device fails.
 std::unique_ptr<Renderer> make_vulkan_renderer(const PackedScene& packed, const VulkanOptions& options);
 
-/// The same on an open device, which other threads may use at the same time. Of the options only group_instances is
-/// used.
+/// The same on an open device, which other threads may use at the same time. Of the options only group_instances and
+/// busy are used.
 std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<Gpu> gpu, const PackedScene& packed,
                                                const VulkanOptions& options = {});
 

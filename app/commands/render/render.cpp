@@ -12,6 +12,7 @@
 #include "image/image_file.h"
 #include "image/tonemap_image.h"
 #include "console/interrupt.h"
+#include "console/opening_line.h"
 #include "commands/render/kept_work.h"
 #include "commands/render/live_view.h"
 #include "session/open_session.h"
@@ -215,7 +216,11 @@ int run_still(const RenderOptions& options, const Scene& scene, LiveView* live) 
                         scene.name));
     }
     LossGuard guard(device_loss_policy(options.on_device_lost, true, request));
-    Session session = guard.open([&](const MakeRenderer& instead) { return open_session(scene, request, instead); });
+    OpeningLine opening(options.json);
+    Session session = guard.open([&](const MakeRenderer& instead) {
+        return open_session(scene, request, instead, [&](const std::string& what) { opening.begin(what); });
+    });
+    opening.close();
     InterruptGuard interrupt;
     const auto begin = [&] {
         if (request.warm_up > 0) {

@@ -9,6 +9,7 @@
 #include "commands/render/picture.h"
 #include "commands/render/rank_run.h"
 #include "console/interrupt.h"
+#include "console/opening_line.h"
 #include "console/repeat_command.h"
 #include "error.h"
 #include "image/layered_image.h"
@@ -136,7 +137,11 @@ int render_frames_on_ranks(RankRun& run, const SampleRanges& unfinished, const s
 int render_sequence(const Scene& scene, const RenderRequest& request, const SequenceOptions& options) {
     const FrameMoments moments(scene, request);
     LossGuard guard(options.on_device_lost);
-    Session session = guard.open([&](const MakeRenderer& instead) { return open_played(scene, request, instead); });
+    OpeningLine opening(options.json);
+    Session session = guard.open([&](const MakeRenderer& instead) {
+        return open_played(scene, request, instead, [&](const std::string& what) { opening.begin(what); });
+    });
+    opening.close();
     const bool chained = session.chained();
     const std::uint32_t first = options.first_frame;
     std::vector<bool> finished(request.frames);
