@@ -125,7 +125,8 @@ Camera from_core(const core::Camera& camera) {
             camera.vertical_fov,
             camera.orthographic_height,
             camera.lens.radius,
-            camera.lens.focus_distance};
+            camera.lens.focus_distance,
+            none};
 }
 
 core::PunctualLight to_core(const Light& light) {
@@ -145,7 +146,8 @@ Light from_core(const core::PunctualLight& light) {
             from_core(light.light_to_world),
             vec(light.intensity),
             light.inner_cone,
-            light.outer_cone};
+            light.outer_cone,
+            none};
 }
 
 Environment from_core(const core::Environment& environment) {
@@ -169,7 +171,7 @@ Environment from_core(const core::Environment& environment) {
 }
 
 static Instance from_core(const core::Instance& instance) {
-    return {instance.name, instance.mesh, from_core(instance.object_to_world)};
+    return {instance.name, instance.mesh, from_core(instance.object_to_world), none};
 }
 
 template <class Public, class Core>
@@ -182,13 +184,38 @@ static std::vector<Public> all_from(const std::vector<Core>& from) {
     return all;
 }
 
-Tables tables_of(const core::Scene& scene) {
-    return {all_from<Material>(scene.materials), all_from<Camera>(scene.cameras), all_from<Light>(scene.lights),
-            all_from<Instance>(scene.instances), from_core(scene.environment)};
+Tables tables_of(const core::Scene& scene, const core::FileNodes& nodes) {
+    Tables tables{all_from<Material>(scene.materials), all_from<Camera>(scene.cameras), all_from<Light>(scene.lights),
+                  all_from<Instance>(scene.instances), from_core(scene.environment), {}};
+    const auto hang = [](auto& table, int index, std::size_t node) {
+        if (index != none) {
+            table[static_cast<std::size_t>(index)].node = static_cast<int>(node);
+        }
+    };
+    for (std::size_t i = 0; i < nodes.uses.size(); ++i) {
+        hang(tables.instances, nodes.uses[i].instance, i);
+        hang(tables.cameras, nodes.uses[i].camera, i);
+        hang(tables.lights, nodes.uses[i].light, i);
+    }
+    return tables;
 }
 
-void apply(const Tables& before, const Tables& after, core::Scene& scene) {
+void apply(const Tables& before, const Tables& after, const core::FileNodes& nodes, core::Scene& scene) {
     const auto changed = [](const auto& a, const auto& b, std::size_t i) { return i >= a.size() || a[i] != b[i]; };
+    // The scene itself knows only nodes that move: what hangs in others stands by its own matrix.
+    const auto moving_node = [&](int node) {
+        const core::NodeUse* use = node == none ? nullptr : &nodes.uses[static_cast<std::size_t>(node)];
+        return use && use->moves ? use->scene_node : core::none;
+    };
+    for (std::size_t i = 0; i < after.nodes.size(); ++i) {
+        const int at = nodes.uses[i].scene_node;
+        if (at != core::none && changed(before.nodes, after.nodes, i)) {
+            core::Node& node = scene.nodes[static_cast<std::size_t>(at)];
+            const int parent = node.parent;  // an index into the scene's nodes, not the file's
+            node = nodes.nodes[i];
+            node.parent = parent;
+        }
+    }
     scene.materials.resize(after.materials.size());
     for (std::size_t i = 0; i < after.materials.size(); ++i) {
         if (changed(before.materials, after.materials, i)) {
@@ -200,9 +227,7 @@ void apply(const Tables& before, const Tables& after, core::Scene& scene) {
         if (changed(before.cameras, after.cameras, i)) {
             core::Camera camera = to_core(after.cameras[i]);
             camera.aspect = scene.cameras[i].aspect;
-            const bool stays =
-                i < before.cameras.size() && before.cameras[i].camera_to_world == after.cameras[i].camera_to_world;
-            camera.node = stays ? scene.cameras[i].node : core::none;
+            camera.node = moving_node(after.cameras[i].node);
             scene.cameras[i] = camera;
         }
     }
@@ -210,9 +235,7 @@ void apply(const Tables& before, const Tables& after, core::Scene& scene) {
     for (std::size_t i = 0; i < after.lights.size(); ++i) {
         if (changed(before.lights, after.lights, i)) {
             core::PunctualLight light = to_core(after.lights[i]);
-            const bool stays =
-                i < before.lights.size() && before.lights[i].light_to_world == after.lights[i].light_to_world;
-            light.node = stays ? scene.lights[i].node : core::none;
+            light.node = moving_node(after.lights[i].node);
             light.moving_color = scene.lights[i].moving_color;
             scene.lights[i] = light;
         }
@@ -221,10 +244,8 @@ void apply(const Tables& before, const Tables& after, core::Scene& scene) {
     for (std::size_t i = 0; i < after.instances.size(); ++i) {
         if (changed(before.instances, after.instances, i)) {
             const Instance& instance = after.instances[i];
-            const bool stays =
-                i < before.instances.size() && before.instances[i].object_to_world == instance.object_to_world;
-            const int node = stays ? scene.instances[i].node : core::none;
-            scene.instances[i] = {instance.name, instance.mesh, to_core(instance.object_to_world), node};
+            scene.instances[i] = {instance.name, instance.mesh, to_core(instance.object_to_world),
+                                  moving_node(instance.node)};
         }
     }
     if (before.environment != after.environment) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diptych/diptych.h"
+#include "gltf/import.h"
 #include "measure/step_hook.h"
 #include "render/film.h"
 #include "render/film_parts.h"
@@ -25,6 +26,7 @@ struct Tables {
     std::vector<Light> lights;
     std::vector<Instance> instances;
     Environment environment;
+    std::vector<Node> nodes;  // empty until somebody asks for them
 
     bool operator==(const Tables&) const = default;
 };
@@ -33,6 +35,7 @@ struct SceneData {
     Tables tables;
     Tables synced;                         // what `content` says
     std::shared_ptr<core::Scene> content;  // written only while nobody else holds it
+    core::FileNodes file_nodes;            // as `content` has them
     std::uint64_t revision = 0;            // of this process; 0 is the scene as its file has it
 
     /// The scene as edited, which stays as it is from then on. Throws Error where an edit is out of range.
@@ -105,7 +108,7 @@ struct Impl {
     static SessionData& data(Session& session) { return *session.data_; }
     static const FilmData& data(const Film& film) { return *film.data_; }
     static std::shared_ptr<const FilmData> shared(const Film& film) { return film.data_; }
-    static Scene make_scene(std::shared_ptr<core::Scene> content);
+    static Scene make_scene(std::shared_ptr<core::Scene> content, core::FileNodes nodes);
     static Film make_film(std::shared_ptr<const FilmData> data) { return Film(std::move(data)); }
 };
 
@@ -166,9 +169,9 @@ core::RenderRequest measured_request(const core::Scene& content, const Settings&
 core::Session open_measured(const core::Scene& scene, const core::RenderRequest& request, bool plays);
 
 // convert.cpp
-Tables tables_of(const core::Scene& scene);
-/// Writes what differs between the tables into the scene; `before` is what the scene says.
-void apply(const Tables& before, const Tables& after, core::Scene& scene);
+Tables tables_of(const core::Scene& scene, const core::FileNodes& nodes);
+/// Writes what differs between the tables into the scene; `before` is what the scene says. `nodes` are those after it.
+void apply(const Tables& before, const Tables& after, const core::FileNodes& nodes, core::Scene& scene);
 core::Camera to_core(const Camera& camera);
 core::PunctualLight to_core(const Light& light);
 Light from_core(const core::PunctualLight& light);
@@ -179,8 +182,21 @@ Matrix from_core(const glm::dmat4& matrix);
 Settings from_core(const core::RenderSettings& settings);
 std::string core_name(Backend backend);
 
+// nodes.cpp
+std::vector<Node> nodes_of(const core::Scene& scene, const core::FileNodes& nodes);
+/// The file's nodes as the edited table has them. Throws Error where an animated node's matrix is no product of
+/// translation, rotation and scale, or a transform is not finite.
+core::FileNodes edited_nodes(const Tables& before, const Tables& after, const core::FileNodes& nodes);
+/// Moves what hangs in the nodes from where `before` places it to where `after` does. What stands elsewhere was placed
+/// by itself, and hangs in no node from now on. Throws Error, and changes nothing, where a camera or a light is left
+/// without a direction.
+void follow_nodes(const core::FileNodes& before, const core::FileNodes& after, Tables& tables);
+
 // validate.cpp: throw Error naming object, field and value.
-void check(const Tables& tables, const core::Scene& scene);
+/// "materials[2] 'paint'".
+std::string object(const char* table, std::size_t index, const std::string& name);
+/// `synced` is what the scene says.
+void check(const Tables& tables, const Tables& synced, const core::Scene& scene, std::size_t nodes);
 void check(const Camera& camera);
 void check(const Settings& settings, std::size_t cameras);
 void check(const BackendChoice& choice);

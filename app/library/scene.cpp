@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "gltf/import.h"
 #include "library/impl.h"
 #include "near_miss.h"
 #include "pose/clips.h"
@@ -20,11 +19,12 @@
 
 DIPTYCH_BEGIN
 
-Scene Impl::make_scene(std::shared_ptr<core::Scene> content) {
+Scene Impl::make_scene(std::shared_ptr<core::Scene> content, core::FileNodes nodes) {
     Scene scene;
-    scene.data_->tables = tables_of(*content);
+    scene.data_->tables = tables_of(*content, nodes);
     scene.data_->synced = scene.data_->tables;
     scene.data_->content = std::move(content);
+    scene.data_->file_nodes = std::move(nodes);
     return scene;
 }
 
@@ -39,8 +39,11 @@ core::Scene& SceneData::own_content() {
 
 std::shared_ptr<const core::Scene> SceneData::snapshot() {
     if (tables != synced) {
-        check(tables, *content);
-        apply(synced, tables, own_content());
+        check(tables, synced, *content, file_nodes.nodes.size());
+        core::FileNodes nodes = edited_nodes(synced, tables, file_nodes);
+        follow_nodes(file_nodes, nodes, tables);
+        apply(synced, tables, nodes, own_content());
+        file_nodes = std::move(nodes);
         synced = tables;
     }
     if (content->cameras.empty()) {
@@ -69,6 +72,31 @@ std::vector<Instance>& Scene::instances() {
 }
 Environment& Scene::environment() {
     return data_->tables.environment;
+}
+std::vector<Node>& Scene::nodes() {
+    if (data_->synced.nodes.empty()) {
+        data_->synced.nodes = nodes_of(*data_->content, data_->file_nodes);
+        data_->tables.nodes = data_->synced.nodes;
+    }
+    return data_->tables.nodes;
+}
+
+NodeContent Scene::content_of(int node) const {
+    const std::size_t count = data_->file_nodes.nodes.size();
+    if (node < 0 || static_cast<std::size_t>(node) >= count) {
+        throw Error(
+            fmt::format("{}: there is no node {}; there are {}", name().empty() ? "scene" : name(), node, count));
+    }
+    const auto of = [&](const auto& table) {
+        std::vector<int> indices;
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            if (table[i].node == node) {
+                indices.push_back(static_cast<int>(i));
+            }
+        }
+        return indices;
+    };
+    return {of(data_->tables.instances), of(data_->tables.cameras), of(data_->tables.lights)};
 }
 
 namespace {
@@ -107,6 +135,9 @@ Light& Scene::light(std::string_view name) {
 }
 Instance& Scene::instance(std::string_view name) {
     return find(instances(), name, "instance", this->name());
+}
+Node& Scene::node(std::string_view name) {
+    return find(nodes(), name, "node", this->name());
 }
 
 Light& Scene::add(const Sun& sun) {
@@ -192,7 +223,7 @@ int Scene::add_mesh(const MeshData& mesh, const Matrix& object_to_world) {
     core::Scene& content = data_->own_content();
     content.meshes.push_back(to_core(mesh, material));
     const int index = static_cast<int>(content.meshes.size()) - 1;
-    instances().push_back({mesh.name, index, object_to_world});
+    instances().push_back({mesh.name, index, object_to_world, none});
     return index;
 }
 
@@ -250,9 +281,10 @@ Scene Scene::copy() const {
 
 Scene load(const std::string& path, const LoadOptions& options) {
     return guarded([&] {
+        core::FileNodes nodes;
         auto content = std::make_shared<core::Scene>(
             core::load_gltf(path, {options.ignore_extensions, options.strict, options.allow_external,
-                                   options.memory_limit}));
+                                   options.memory_limit}, &nodes));
         if (content->name.empty()) {
             content->name = path;
         }
@@ -270,7 +302,7 @@ Scene load(const std::string& path, const LoadOptions& options) {
                 options.warnings(line);
             }
         }
-        return Impl::make_scene(std::move(content));
+        return Impl::make_scene(std::move(content), std::move(nodes));
     });
 }
 

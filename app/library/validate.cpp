@@ -10,12 +10,11 @@
 
 DIPTYCH_BEGIN
 
-namespace {
-
-/// "materials[2] 'paint'".
 std::string object(const char* table, std::size_t index, const std::string& name) {
     return fmt::format("{}[{}]{}", table, index, name.empty() ? "" : " '" + name + "'");
 }
+
+namespace {
 
 void require(bool holds, const std::string& object, const char* field, double value, const char* range) {
     if (!holds) {
@@ -125,6 +124,31 @@ void check(const Environment& environment) {
     }
 }
 
+/// Nodes are those of the file: only their names and matrices may change.
+void check_nodes(const std::vector<Node>& nodes, const std::vector<Node>& synced) {
+    if (nodes.size() != synced.size()) {
+        throw Error(fmt::format("nodes: there are {}; they have to stay the file's {}", nodes.size(), synced.size()));
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Node& node = nodes[i];
+        const std::string name = object("nodes", i, node.name);
+        if (node.parent != synced[i].parent || node.children != synced[i].children ||
+            node.animated != synced[i].animated) {
+            throw Error(name + ": parent, children and animated are the file's, and cannot be edited");
+        }
+        const Matrix& m = node.node_to_parent;
+        require_finite(m, name, "node_to_parent");
+        if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
+            throw Error(name + ": node_to_parent has to be affine: its last row is 0 0 0 1");
+        }
+    }
+}
+
+void require_node(int node, const std::string& object, std::size_t nodes) {
+    const bool exists = node == none || (node >= 0 && static_cast<std::size_t>(node) < nodes);
+    require(exists, object, "node", node, fmt::format("-1, or below the number of nodes, {}", nodes).c_str());
+}
+
 void require_not_fewer(std::size_t now, std::size_t loaded, const char* table) {
     if (now < loaded) {
         throw Error(fmt::format("{}: {} of the scene's {} are gone; other parts of the scene refer to them by index",
@@ -134,7 +158,8 @@ void require_not_fewer(std::size_t now, std::size_t loaded, const char* table) {
 
 }  // namespace
 
-void check(const Tables& tables, const core::Scene& scene) {
+void check(const Tables& tables, const Tables& synced, const core::Scene& scene, std::size_t nodes) {
+    check_nodes(tables.nodes, synced.nodes);
     require_not_fewer(tables.materials.size(), scene.materials.size(), "materials");
     if (!scene.animations.empty()) {
         require_not_fewer(tables.lights.size(), scene.lights.size(), "lights");
@@ -143,10 +168,14 @@ void check(const Tables& tables, const core::Scene& scene) {
         check(tables.materials[i], object("materials", i, tables.materials[i].name), scene.textures.size());
     }
     for (std::size_t i = 0; i < tables.cameras.size(); ++i) {
-        check_camera(tables.cameras[i], object("cameras", i, tables.cameras[i].name));
+        const std::string name = object("cameras", i, tables.cameras[i].name);
+        check_camera(tables.cameras[i], name);
+        require_node(tables.cameras[i].node, name, nodes);
     }
     for (std::size_t i = 0; i < tables.lights.size(); ++i) {
-        check(tables.lights[i], object("lights", i, tables.lights[i].name));
+        const std::string name = object("lights", i, tables.lights[i].name);
+        check(tables.lights[i], name);
+        require_node(tables.lights[i].node, name, nodes);
     }
     for (std::size_t i = 0; i < tables.instances.size(); ++i) {
         const Instance& instance = tables.instances[i];
@@ -155,6 +184,7 @@ void check(const Tables& tables, const core::Scene& scene) {
         require(exists, name, "mesh", instance.mesh,
                 fmt::format("an index below the number of meshes, {}", scene.meshes.size()).c_str());
         require_finite(instance.object_to_world, name, "object_to_world");
+        require_node(instance.node, name, nodes);
     }
     check(tables.environment);
 }

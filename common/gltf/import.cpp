@@ -74,7 +74,8 @@ int add_mesh(Document& document, Scene& scene, int mesh, const MeshUse& use) {
     return static_cast<int>(scene.meshes.size()) - 1;
 }
 
-void add_instance(Document& document, Scene& scene, const NodeTree& tree, const Motion& motion, int node,
+/// Whether there is one: a mesh without triangles makes none.
+bool add_instance(Document& document, Scene& scene, const NodeTree& tree, const Motion& motion, int node,
                   MeshTable& table) {
     const tinygltf::Node& holder = document.model.nodes[static_cast<std::size_t>(node)];
     if (holder.mesh < 0 || static_cast<std::size_t>(holder.mesh) >= document.model.meshes.size()) {
@@ -95,31 +96,41 @@ void add_instance(Document& document, Scene& scene, const NodeTree& tree, const 
         }
         instance.mesh = entry->second;
     }
-    if (!scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives.empty()) {
-        scene.instances.push_back(std::move(instance));
+    if (scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives.empty()) {
+        return false;
     }
+    scene.instances.push_back(std::move(instance));
+    return true;
 }
 
-Scene import_document(Document& document) {
+Scene import_document(Document& document, FileNodes* nodes) {
     Scene scene;
     scene.name = document.file;
     import_materials(document, scene);
-    const NodeTree tree = read_nodes(document);
+    NodeTree tree = read_nodes(document);
     const Motion motion = read_motion(document, tree, scene);
     MeshTable table;
     std::vector<int> light_sources;
+    std::vector<NodeUse> uses(nodes ? tree.nodes.size() : 0);
+    const auto hang = [&](int NodeUse::*kind, int node, std::size_t count) {
+        if (nodes) {
+            uses[static_cast<std::size_t>(node)].*kind = static_cast<int>(count) - 1;
+        }
+    };
     for (const int node : tree.visible) {
         const tinygltf::Node& holder = document.model.nodes[static_cast<std::size_t>(node)];
-        if (holder.mesh != none) {
-            add_instance(document, scene, tree, motion, node, table);
+        if (holder.mesh != none && add_instance(document, scene, tree, motion, node, table) && holder.skin == none) {
+            hang(&NodeUse::instance, node, scene.instances.size());
         }
         if (holder.camera != none) {
             scene.cameras.push_back(import_camera(document, holder.camera, node, tree));
             scene.cameras.back().node = motion.node(node);
+            hang(&NodeUse::camera, node, scene.cameras.size());
         }
         if (const int light = find_light(document, node); light != none) {
             scene.lights.push_back(import_light(document, light, node, tree));
             scene.lights.back().node = motion.node(node);
+            hang(&NodeUse::light, node, scene.lights.size());
             light_sources.push_back(light);
         }
     }
@@ -128,15 +139,22 @@ Scene import_document(Document& document) {
         warn(document, "scene", "has no triangles");
     }
     scene.warnings = std::move(document.warnings);
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        uses[i].scene_node = motion.scene_nodes[i];
+        uses[i].moves = motion.moving[i] && motion.scene_nodes[i] != none;
+    }
+    if (nodes) {
+        *nodes = {std::move(tree.nodes), std::move(uses)};
+    }
     return scene;
 }
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options) {
+Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options, FileNodes* nodes) {
     try {
         Document document = read_document(path, options);
-        return import_document(document);
+        return import_document(document, nodes);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {

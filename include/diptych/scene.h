@@ -76,6 +76,7 @@ struct Camera {
     double orthographic_height = 1;  // orthographic: metres, of the whole view
     double lens_radius = 0;          // metres; 0 is a pinhole
     double focus_distance = 1;       // metres along -Z
+    int node = none;                 // that it hangs in: see Node
 
     bool operator==(const Camera&) const = default;
 };
@@ -95,6 +96,7 @@ struct Light {
     Vec3 intensity{1, 1, 1};                // point, spot: W/sr; directional: W/m²
     double inner_cone = 0;                  // spot
     double outer_cone = 0.785398163397448;  // spot; greater than inner_cone, at most pi/2
+    int node = none;                        // that it hangs in: see Node
 
     bool operator==(const Light&) const = default;
 };
@@ -131,8 +133,38 @@ struct Instance {
     std::string name;
     int mesh = none;
     Matrix object_to_world = identity;
+    int node = none;  // that it hangs in: see Node
 
     bool operator==(const Instance&) const = default;
+};
+
+/// A node of the file's tree, at rest. Its name and its matrix may be edited; an edit of the rest is refused.
+///
+/// An edited matrix moves all that hangs in the node and below it: at the next render, the matrices of these instances,
+/// cameras and lights are the product of their nodes' matrices (a camera's and a light's without scale). The matrix of
+/// an instance, camera or light itself may be edited too. It wins over the nodes, whether they are edited as well or
+/// not: the object then hangs in no node, and `node` is none from the next render on. An object whose `node` is set
+/// hangs there if its matrix is the one that the node gives. A skinned mesh hangs in no node: its joints placed it when
+/// it was loaded.
+///
+/// An animation that plays sets a node's translation, rotation or scale at each moment that a session poses, in place
+/// of that part of the matrix. The parts that it does not set, and a scene at rest, are the matrix's. The matrix of
+/// such a node has to be a product of the three.
+struct Node {
+    std::string name;
+    Matrix node_to_parent = identity;  // affine
+    int parent = none;
+    std::vector<int> children;  // ascending
+    bool animated = false;  // an animation that plays sets it
+
+    bool operator==(const Node&) const = default;
+};
+
+/// What hangs in a node itself, not below it: indices into the scene's tables.
+struct NodeContent {
+    std::vector<int> instances;
+    std::vector<int> cameras;
+    std::vector<int> lights;
 };
 
 /// Triangles of one material, which Scene::add_mesh copies. Spans may be empty where it says so.
@@ -165,11 +197,19 @@ public:
     std::vector<Instance>& instances();
     Environment& environment();
 
+    /// All nodes of the file, with the file's indices; none of a scene that was built. Nodes can be neither added nor
+    /// removed. The table is made at the first call, which counts as an edit where threads share the scene.
+    std::vector<Node>& nodes();
+
+    /// What names this node now. Throws Error where there is no such node.
+    NodeContent content_of(int node) const;
+
     /// The first of that name; valid until the table grows. Throws Error with the names that there are.
     Material& material(std::string_view name);
     Camera& camera(std::string_view name);
     Light& light(std::string_view name);
     Instance& instance(std::string_view name);
+    Node& node(std::string_view name);
 
     /// The light that the sun becomes, at the end of lights().
     Light& add(const Sun& sun);

@@ -20,6 +20,26 @@ inline std::vector<Light>& list_of(Scene& scene, const Light*) {
 inline std::vector<Instance>& list_of(Scene& scene, const Instance*) {
     return scene.instances();
 }
+inline std::vector<Node>& list_of(Scene& scene, const Node*) {
+    return scene.nodes();
+}
+
+/// The first of that name; the library's Error lists the names that there are.
+inline Material& named(Scene& scene, const std::string& name, const Material*) {
+    return scene.material(name);
+}
+inline Camera& named(Scene& scene, const std::string& name, const Camera*) {
+    return scene.camera(name);
+}
+inline Light& named(Scene& scene, const std::string& name, const Light*) {
+    return scene.light(name);
+}
+inline Instance& named(Scene& scene, const std::string& name, const Instance*) {
+    return scene.instance(name);
+}
+inline Node& named(Scene& scene, const std::string& name, const Node*) {
+    return scene.node(name);
+}
 
 /// A value on its own, or an element of a scene. The element is found anew at each use, by its index, because the
 /// scene's lists move in memory as they grow.
@@ -123,49 +143,33 @@ struct Elements {
         }
         return static_cast<std::size_t>(given < 0 ? given + size : given);
     }
-    std::size_t index(const char* kind, const std::string& name) const {
-        std::string known;
-        for (std::size_t i = 0; i < list().size(); ++i) {
-            if (list()[i].name == name) {
-                return i;
-            }
-            known += (known.empty() ? "" : ", ") + list()[i].name;
+    std::size_t index(const std::string& name) const {
+        Scene handle = scene;
+        try {
+            const T& found = named(handle, name, static_cast<T*>(nullptr));
+            return static_cast<std::size_t>(&found - list().data());
+        } catch (const Error& error) {
+            throw UnknownName(error.what());
         }
-        throw UnknownName("the scene has no " + std::string(kind) + " " + name +
-                          (known.empty() ? "" : "; there are " + known));
     }
 };
 
-/// Deletions are bound only where no other part of the scene counts on the elements' indices.
-template <typename T>
-void bind_elements(py::module_& module, const char* class_name, const char* kind, bool deletes) {
+/// What only reads a list: its items are `Item`s of the scene and an index.
+template <typename T, typename Item>
+py::class_<Elements<T>> bind_look_up(py::module_& module, const char* class_name) {
     using List = Elements<T>;
     py::class_<List> list(module, class_name);
     list.def("__len__", [](const List& self) { return self.list().size(); });
+    list.def("__getitem__", [](const List& self, py::ssize_t index) { return Item(self.scene, self.index(index)); });
     list.def("__getitem__",
-             [](const List& self, py::ssize_t index) { return Element<T>(self.scene, self.index(index)); });
-    list.def("__getitem__", [kind](const List& self, const std::string& name) {
-        return Element<T>(self.scene, self.index(kind, name));
-    });
-    list.def("__setitem__", [](const List& self, py::ssize_t index, const Element<T>& value) {
-        self.list()[self.index(index)] = T(value.get());
-    });
+             [](const List& self, const std::string& name) { return Item(self.scene, self.index(name)); });
     list.def("__contains__", [](const List& self, const std::string& name) {
         return std::any_of(self.list().begin(), self.list().end(), [&](const T& each) { return each.name == name; });
     });
     list.def("__repr__", [](const py::object& self) { return std::string(py::repr(py::list(self))); });
     list.def(
-        "index", [kind](const List& self, const std::string& name) { return self.index(kind, name); },
+        "index", [](const List& self, const std::string& name) { return self.index(name); },
         "The index of the first element of that name.");
-    list.def(
-        "append",
-        [](const List& self, Element<T>& element) {
-            self.list().push_back(T(element.get()));
-            if (!element.in_scene) {
-                element = Element<T>(self.scene, self.list().size() - 1);
-            }
-        },
-        "Adds the element, which is part of the scene from then on; of an element of a scene it adds a copy.");
     list.def(
         "names",
         [](const List& self) {
@@ -175,6 +179,26 @@ void bind_elements(py::module_& module, const char* class_name, const char* kind
             return names;
         },
         "The elements' names, in order.");
+    return list;
+}
+
+/// Deletions are bound only where no other part of the scene counts on the elements' indices.
+template <typename T>
+void bind_elements(py::module_& module, const char* class_name, bool deletes) {
+    using List = Elements<T>;
+    py::class_<List> list = bind_look_up<T, Element<T>>(module, class_name);
+    list.def("__setitem__", [](const List& self, py::ssize_t index, const Element<T>& value) {
+        self.list()[self.index(index)] = T(value.get());
+    });
+    list.def(
+        "append",
+        [](const List& self, Element<T>& element) {
+            self.list().push_back(T(element.get()));
+            if (!element.in_scene) {
+                element = Element<T>(self.scene, self.list().size() - 1);
+            }
+        },
+        "Adds the element, which is part of the scene from then on; of an element of a scene it adds a copy.");
     if (deletes) {
         list.def("__delitem__", [](const List& self, py::ssize_t index) {
             self.list().erase(self.list().begin() + static_cast<std::ptrdiff_t>(self.index(index)));

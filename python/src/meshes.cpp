@@ -67,7 +67,7 @@ int material_index(Scene& scene, const py::object& value) {
     }
     const Elements<Material> list{scene};
     if (py::isinstance<py::str>(value)) {
-        return static_cast<int>(list.index("material", value.cast<std::string>()));
+        return static_cast<int>(list.index(value.cast<std::string>()));
     }
     return static_cast<int>(list.index(from_python<py::ssize_t>("material", value)));
 }

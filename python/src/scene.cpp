@@ -27,6 +27,10 @@ constexpr const char* scene_doc =
     ">>> len(scene.lights), scene.triangle_count\n"
     "(1, 0)\n";
 
+constexpr const char* hangs_in_doc =
+    "Index of the node that it hangs in (diptych.Node), -1 is none. A matrix that is edited wins over the node: node\n"
+    "is -1 from the next render on.";
+
 void bind_values(py::module_& module) {
     py::class_<TextureSlot>(
         module, "TextureSlot",
@@ -72,6 +76,7 @@ void bind_values(py::module_& module) {
         .field("name", &Camera::name, "Its name; need not be unique.")
         .field("camera_to_world", &Camera::camera_to_world, "Float64 (4, 4), [row, column]; rigid.")
         .position(&Camera::camera_to_world)
+        .field("node", &Camera::node, hangs_in_doc)
         .field("orthographic", &Camera::orthographic, "Else perspective.")
         .field("vertical_fov", &Camera::vertical_fov, "Of a perspective camera: radians, between 0 and pi.")
         .field("orthographic_height", &Camera::orthographic_height, "Metres, of the whole view.")
@@ -82,6 +87,7 @@ void bind_values(py::module_& module) {
         .field("kind", &Light::kind, "\"point\", \"spot\" or \"directional\".")
         .field("light_to_world", &Light::light_to_world, "Float64 (4, 4), [row, column].")
         .position(&Light::light_to_world)
+        .field("node", &Light::node, hangs_in_doc)
         .field("intensity", &Light::intensity, "(r, g, b): W/sr of point and spot, W/m² of directional.")
         .field("inner_cone", &Light::inner_cone, "Of spot: radians.")
         .field("outer_cone", &Light::outer_cone, "Of spot: radians, greater than inner_cone, at most pi/2.");
@@ -89,11 +95,12 @@ void bind_values(py::module_& module) {
         .field("name", &Instance::name, "Its name; need not be unique.")
         .field("mesh", &Instance::mesh, "What Scene.add_mesh returned.")
         .field("object_to_world", &Instance::object_to_world, "Float64 (4, 4), [row, column].")
-        .position(&Instance::object_to_world);
-    bind_elements<Material>(module, "Materials", "material", false);
-    bind_elements<Camera>(module, "Cameras", "camera", true);
-    bind_elements<Light>(module, "Lights", "light", true);
-    bind_elements<Instance>(module, "Instances", "instance", true);
+        .position(&Instance::object_to_world)
+        .field("node", &Instance::node, hangs_in_doc);
+    bind_elements<Material>(module, "Materials", false);
+    bind_elements<Camera>(module, "Cameras", true);
+    bind_elements<Light>(module, "Lights", true);
+    bind_elements<Instance>(module, "Instances", true);
 }
 
 Scene loaded(const py::object& path, const std::vector<std::string>& ignore_extensions, bool strict,
@@ -120,6 +127,7 @@ auto list_getter() {
 void bind_scene(py::module_& module) {
     bind_values(module);
     bind_environment(module);
+    bind_nodes(module);
     py::class_<Scene> scene(module, "Scene", scene_doc);
     scene.def(py::init<>())
         .def_property_readonly("materials", list_getter<Material>())
@@ -127,6 +135,8 @@ void bind_scene(py::module_& module) {
                                "A scene without one is seen by a camera that frames it.")
         .def_property_readonly("lights", list_getter<Light>())
         .def_property_readonly("instances", list_getter<Instance>())
+        .def_property_readonly("nodes", list_getter<Node>(),
+                               "All nodes of the file, with the file's indices; none of a scene that was built.")
         .def_property_readonly("name", &Scene::name, "The file's path; empty for a scene that was built.")
         .def_property_readonly("mesh_count", &Scene::mesh_count)
         .def_property_readonly("triangle_count", &Scene::triangle_count, "Over all instances.")

@@ -7,6 +7,7 @@ namespace diptych::python {
 
 void bind_environment(py::module_& module);
 void bind_scene_environment(py::class_<Scene>& scene);
+void bind_nodes(py::module_& module);
 void bind_meshes(py::class_<Scene>& scene);
 
 }  // namespace diptych::python
