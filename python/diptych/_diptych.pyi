@@ -352,6 +352,24 @@ class Film:
     def __getitem__(self, layer: str) -> npt.NDArray[np.float32]: ...
     @property
     def layers(self) -> List[str]: ...
+    def to_dlpack(
+        self,
+        layer: str = "radiance",
+        *,
+        stream: None = None,
+        max_version: Optional[Tuple[int, int]] = None,
+        dl_device: Optional[Tuple[int, int]] = None,
+        copy: Optional[bool] = None,
+    ) -> Any: ...
+    def __dlpack__(
+        self,
+        *,
+        stream: None = None,
+        max_version: Optional[Tuple[int, int]] = None,
+        dl_device: Optional[Tuple[int, int]] = None,
+        copy: Optional[bool] = None,
+    ) -> Any: ...
+    def __dlpack_device__(self) -> Tuple[int, int]: ...
     @property
     def sums(self) -> npt.NDArray[np.float64]: ...
     @property

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "bindings.h"
+#include "dlpack.h"
 
 namespace diptych::python {
 
@@ -31,11 +31,25 @@ constexpr const char* film_doc = "What a session has rendered: a value. Arrays h
                                  ">>> film.radiance.shape, film.radiance.dtype, float(film.radiance[0, 0, 0])\n"
                                  "((2, 3, 3), dtype('float32'), 0.5)\n";
 
-/// A copy of the film, which shares its memory, lives on in the array.
-py::array layer(const Film& film, const std::string& name) {
-    auto* owned = new Film(film);
-    const py::capsule owner(owned, [](void* memory) { delete static_cast<Film*>(memory); });
-    const std::span<const float> values = owned->layer(name);
+constexpr const char* dlpack_doc =
+    "A DLPack capsule of a layer, float32 (h, w, 3) or (h, w), for libraries that take one, such as\n"
+    "torch.from_dlpack(film.to_dlpack(\"albedo\")). Libraries that take an object, such as numpy.from_dlpack, get the\n"
+    "radiance of the film itself.\n\n"
+    "The capsule has the film's own memory, without a copy, and keeps it alive. Arrays of a film are not to be\n"
+    "written: with max_version=(1, 0) or later the capsule says so by its read-only flag. The older capsule, which\n"
+    "consumers of DLPack before 1.0 ask for, has no such flag; its consumer has to heed this page. copy=True gives\n"
+    "memory of its own, which may be written. The memory is the processor's for films of Vulkan devices too, since\n"
+    "the sums of a film become radiance there. A stream or another device raises BufferError.\n\n"
+    ">>> import diptych as dp, numpy as np\n"
+    ">>> scene = dp.Scene()\n"
+    ">>> scene.environment.scale = (0.5, 0.5, 0.5)\n"
+    ">>> film = dp.render(scene, spp=4, size=(3, 2))\n"
+    ">>> np.from_dlpack(film).shape, film.__dlpack_device__()\n"
+    "((2, 3, 3), (1, 0))\n";
+
+/// Throws Error where the film has no such layer.
+std::span<const float> values_of(const Film& film, const std::string& name) {
+    const std::span<const float> values = film.layer(name);
     if (values.empty() && !film.has_sums()) {
         throw Error("the film has no layer " + name + ": " + film.info().file + " holds none");
     }
@@ -43,20 +57,51 @@ py::array layer(const Film& film, const std::string& name) {
         const char* setting = name == "standard_error" ? "standard_error" : "first_hit";
         throw Error("the film has no layer " + name + ": it was rendered with " + setting + "=False");
     }
-    std::vector<py::ssize_t> shape{film.height(), film.width()};
-    if (values.size() != static_cast<std::size_t>(film.height()) * static_cast<std::size_t>(film.width())) {
-        shape.push_back(3);
-    }
-    return view_of(values.data(), shape, owner);
+    return values;
 }
 
-py::array named_layer(const Film& film, const std::string& name) {
+template <typename Integer>
+std::vector<Integer> shape_of(const Film& film, std::size_t values) {
+    std::vector<Integer> shape{film.height(), film.width()};
+    if (values != static_cast<std::size_t>(film.height()) * static_cast<std::size_t>(film.width())) {
+        shape.push_back(3);
+    }
+    return shape;
+}
+
+/// A copy of the film, which shares its memory, lives on in the array.
+py::array layer(const Film& film, const std::string& name) {
+    auto* owned = new Film(film);
+    const py::capsule owner(owned, [](void* memory) { delete static_cast<Film*>(memory); });
+    const std::span<const float> values = values_of(*owned, name);
+    return view_of(values.data(), shape_of<py::ssize_t>(film, values.size()), owner);
+}
+
+void require_known(const Film& film, const std::string& name) {
     try {
         film.layer(name);
     } catch (const Error& error) {
         throw UnknownName(error.what());
     }
+}
+
+py::array named_layer(const Film& film, const std::string& name) {
+    require_known(film, name);
     return layer(film, name);
+}
+
+py::capsule shared_layer(const Film& film, const std::string& name, const py::object& stream,
+                         const py::object& max_version, const py::object& device, const py::object& copy) {
+    require_dlpack_device(stream, device);
+    require_known(film, name);
+    const auto owner = std::make_shared<const Film>(film);
+    const std::span<const float> values = values_of(*owner, name);
+    SharedArray array{values.data(), shape_of<std::int64_t>(film, values.size()), owner, false};
+    if (!copy.is_none() && copy.cast<bool>()) {
+        const auto own = std::make_shared<std::vector<float>>(values.begin(), values.end());
+        array = {own->data(), std::move(array.shape), own, true};
+    }
+    return dlpack_capsule(std::move(array), max_version);
 }
 
 std::vector<std::string> layers(const Film& film) {
@@ -140,6 +185,19 @@ void bind_film(py::module_& module) {
              "\"albedo\" or \"normal\", float32 (h, w, 3), or \"depth\", float32 (h, w), metres: means of the first "
              "hit.\n"
              "Also \"radiance\" and \"standard_error\". Read-only views.")
+        .def("to_dlpack", &shared_layer, py::arg("layer") = "radiance", py::kw_only(), py::arg("stream") = py::none(),
+             py::arg("max_version") = py::none(), py::arg("dl_device") = py::none(), py::arg("copy") = py::none(),
+             dlpack_doc)
+        .def(
+            "__dlpack__",
+            [](const Film& film, const py::object& stream, const py::object& max_version, const py::object& device,
+               const py::object& copy) {
+                return shared_layer(film, "radiance", stream, max_version, device, copy);
+            },
+            py::kw_only(), py::arg("stream") = py::none(), py::arg("max_version") = py::none(),
+            py::arg("dl_device") = py::none(), py::arg("copy") = py::none(), "to_dlpack(\"radiance\").")
+        .def(
+            "__dlpack_device__", [](const Film&) { return dlpack_device(); }, "(1, 0): the processor's memory.")
         .def_property_readonly("layers", &layers, "The names of the layers that the film has.")
         .def_property_readonly("has_sums", &Film::has_sums,
                                "Whether the film has the sums of its samples, by which films merge.")

@@ -1,4 +1,5 @@
 import copy
+import ctypes
 import gc
 
 import numpy as np
@@ -36,6 +37,125 @@ def test_an_array_outlives_its_film_and_session(floor):
     gc.collect()
     others = [np.full((48, 64, 3), i, np.float32) for i in range(50)]  # would take the place of freed memory
     assert np.array_equal(array, expected) and len(others) == 50
+
+
+def test_numpy_takes_a_film_without_a_copy(film):
+    assert film.__dlpack_device__() == (1, 0)
+    array = np.from_dlpack(film)
+    assert array.dtype == np.float32 and np.array_equal(array, film.radiance)
+    assert np.shares_memory(array, film.radiance)
+
+
+class Tensor(ctypes.Structure):
+    """DLTensor of DLPack 1.0."""
+    _fields_ = [("data", ctypes.c_void_p), ("device_type", ctypes.c_int32), ("device_id", ctypes.c_int32),
+                ("ndim", ctypes.c_int32), ("code", ctypes.c_uint8), ("bits", ctypes.c_uint8),
+                ("lanes", ctypes.c_uint16), ("shape", ctypes.POINTER(ctypes.c_int64)),
+                ("strides", ctypes.POINTER(ctypes.c_int64)), ("byte_offset", ctypes.c_uint64)]
+
+    def array(self):
+        size = np.prod(self.shape[:self.ndim])
+        floats = ctypes.cast(self.data + self.byte_offset, ctypes.POINTER(ctypes.c_float))
+        return np.ctypeslib.as_array(floats, (size,)).reshape(self.shape[:self.ndim])
+
+
+class Managed(ctypes.Structure):
+    """DLManagedTensor."""
+
+
+Managed._fields_ = [("tensor", Tensor), ("context", ctypes.c_void_p),
+                    ("deleter", ctypes.CFUNCTYPE(None, ctypes.POINTER(Managed)))]
+
+
+class Versioned(ctypes.Structure):
+    """DLManagedTensorVersioned."""
+
+
+Versioned._fields_ = [("major", ctypes.c_uint32), ("minor", ctypes.c_uint32), ("context", ctypes.c_void_p),
+                      ("deleter", ctypes.CFUNCTYPE(None, ctypes.POINTER(Versioned))), ("flags", ctypes.c_uint64),
+                      ("tensor", Tensor)]
+
+
+def opened(capsule, kind=Managed):
+    """What a consumer reads."""
+    name = b"dltensor" if kind is Managed else b"dltensor_versioned"
+    pointer = ctypes.pythonapi.PyCapsule_GetPointer
+    pointer.restype, pointer.argtypes = ctypes.c_void_p, [ctypes.py_object, ctypes.c_char_p]
+    return kind.from_address(pointer(capsule, name))
+
+
+def consumed(capsule, kind=Managed):
+    """What a consumer owns: it renames the capsule, and calls the deleter in the end."""
+    managed = opened(capsule, kind)
+    rename = ctypes.pythonapi.PyCapsule_SetName
+    rename.argtypes = [ctypes.py_object, ctypes.c_char_p]
+    name = b"used_dltensor" if kind is Managed else b"used_dltensor_versioned"
+    rename(capsule, name)
+    managed.name_that_must_live = name
+    return managed
+
+
+@pytest.mark.parametrize("name, channels", [("radiance", (3,)), ("albedo", (3,)), ("depth", ())])
+def test_layers_are_capsules(film, name, channels):
+    shape, strides = [12, 16, *channels], [48, 3, 1] if channels else [16, 1]
+    for version, kind in ((None, Managed), ((0, 8), Managed), ((1, 0), Versioned), ((1, 1), Versioned),
+                          ((2, 0), Versioned)):
+        capsule = film.to_dlpack(name, max_version=version)
+        managed = opened(capsule, kind)
+        tensor = managed.tensor
+        assert (tensor.device_type, tensor.device_id, tensor.code, tensor.bits, tensor.lanes) == (1, 0, 2, 32, 1)
+        assert tensor.shape[:tensor.ndim] == shape and tensor.strides[:tensor.ndim] == strides
+        assert np.shares_memory(tensor.array(), film[name]) and np.array_equal(tensor.array(), film[name])
+        if kind is Versioned:
+            assert (managed.major, managed.minor, managed.flags) == (1, 0, 1)  # read-only
+
+
+def test_a_copy_may_be_written(film):
+    capsule = film.to_dlpack(max_version=(1, 0), copy=True)
+    managed = opened(capsule, Versioned)
+    before = film.radiance.copy()
+    assert managed.flags == 2 and np.array_equal(managed.tensor.array(), before)  # copied
+    managed.tensor.array()[:] = 0
+    assert np.array_equal(film.radiance, before)
+
+
+@pytest.mark.parametrize("version, kind", [(None, Managed), ((1, 0), Versioned)])
+def test_a_capsule_keeps_the_film_alive_until_its_consumer_lets_go(floor, version, kind):
+    def resident():
+        with open("/proc/self/statm") as file:
+            return int(file.read().split()[1]) * 4096
+
+    size = (1024, 1024)  # some hundred bytes a pixel
+    film = dp.render(floor, spp=1, size=size)
+    capsule, expected = film.__dlpack__(max_version=version), film.radiance.copy()
+    del film
+    gc.collect()
+    managed = consumed(capsule, kind)
+    del capsule
+    gc.collect()
+    assert np.array_equal(managed.tensor.array(), expected)
+    held = resident()
+    managed.deleter(managed)
+    assert held - resident() > 12 * size[0] * size[1]
+    film = dp.render(floor, spp=1, size=size)  # a capsule that nobody takes frees it likewise
+    capsule = film.__dlpack__(max_version=version)
+    del film
+    held = resident()
+    del capsule
+    assert held - resident() > 12 * size[0] * size[1]
+
+
+@pytest.mark.parametrize("arguments", [{"stream": 1}, {"dl_device": (2, 0)}])
+def test_what_dlpack_cannot_give_is_a_buffer_error(film, arguments):
+    for export in (film.to_dlpack, film.__dlpack__):
+        with pytest.raises(BufferError, match="processor's memory"):
+            export(**arguments)
+    assert film.__dlpack__(dl_device=(1, 0), copy=False) is not None
+    with pytest.raises(KeyError, match="noise"):
+        film.to_dlpack("noise")
+    bare = dp.render(dp.Scene(), spp=1, size=(2, 2), first_hit=False)
+    with pytest.raises(dp.Error, match="first_hit=False"):
+        bare.to_dlpack("albedo")
 
 
 def test_radiance_is_the_mean_of_the_sums(film):
