@@ -4,10 +4,10 @@ namespace diptych::python {
 
 namespace {
 
-constexpr std::int32_t cpu_device = 1;   // kDLCPU
-constexpr std::uint8_t float_code = 2;   // kDLFloat
-constexpr std::uint64_t read_only = 1;   // DLPACK_FLAG_BITMASK_READ_ONLY
-constexpr std::uint64_t is_copied = 2;   // DLPACK_FLAG_BITMASK_IS_COPIED
+constexpr std::int32_t cpu_device = 1;  // kDLCPU
+constexpr std::uint8_t float_code = 2;  // kDLFloat
+constexpr std::uint64_t read_only = 1;  // DLPACK_FLAG_BITMASK_READ_ONLY
+constexpr std::uint64_t is_copied = 2;  // DLPACK_FLAG_BITMASK_IS_COPIED
 
 struct DLDevice {
     std::int32_t device_type;
@@ -112,8 +112,8 @@ void require_dlpack_device(const py::object& stream, const py::object& device) {
     }
 }
 
-py::capsule dlpack_capsule(SharedArray array, const py::object& max_version) {
-    if (max_version.is_none() || max_version[py::int_(0)].cast<int>() < 1) {
+py::capsule dlpack_capsule(SharedArray array, const DlpackVersion& max_version) {
+    if (!max_version || max_version->first < 1) {
         return capsule_of(std::make_unique<Held<DLManagedTensor>>(std::move(array)));
     }
     auto held = std::make_unique<Held<DLManagedTensorVersioned>>(std::move(array));

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "bindings.h"
@@ -18,6 +20,9 @@ struct SharedArray {
     bool copied = false;  // nobody else has this memory, so that it may be written
 };
 
+/// Major and minor version of DLPack that a consumer knows.
+using DlpackVersion = std::optional<std::pair<int, int>>;
+
 /// The pair that __dlpack_device__ returns.
 py::tuple dlpack_device();
 
@@ -26,6 +31,6 @@ void require_dlpack_device(const py::object& stream, const py::object& device);
 
 /// A capsule of DLPack 1.0, which says whether the memory may be written, where max_version allows it; else the older
 /// one, which cannot say so.
-py::capsule dlpack_capsule(SharedArray array, const py::object& max_version);
+py::capsule dlpack_capsule(SharedArray array, const DlpackVersion& max_version);
 
 }  // namespace diptych::python

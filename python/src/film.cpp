@@ -91,13 +91,13 @@ py::array named_layer(const Film& film, const std::string& name) {
 }
 
 py::capsule shared_layer(const Film& film, const std::string& name, const py::object& stream,
-                         const py::object& max_version, const py::object& device, const py::object& copy) {
+                         const DlpackVersion& max_version, const py::object& device, std::optional<bool> copy) {
     require_dlpack_device(stream, device);
     require_known(film, name);
     const auto owner = std::make_shared<const Film>(film);
     const std::span<const float> values = values_of(*owner, name);
     SharedArray array{values.data(), shape_of<std::int64_t>(film, values.size()), owner, false};
-    if (!copy.is_none() && copy.cast<bool>()) {
+    if (copy.value_or(false)) {
         const auto own = std::make_shared<std::vector<float>>(values.begin(), values.end());
         array = {own->data(), std::move(array.shape), own, true};
     }
@@ -190,8 +190,8 @@ void bind_film(py::module_& module) {
              dlpack_doc)
         .def(
             "__dlpack__",
-            [](const Film& film, const py::object& stream, const py::object& max_version, const py::object& device,
-               const py::object& copy) {
+            [](const Film& film, const py::object& stream, const DlpackVersion& max_version, const py::object& device,
+               std::optional<bool> copy) {
                 return shared_layer(film, "radiance", stream, max_version, device, copy);
             },
             py::kw_only(), py::arg("stream") = py::none(), py::arg("max_version") = py::none(),

@@ -153,6 +153,9 @@ def test_what_dlpack_cannot_give_is_a_buffer_error(film, arguments):
     assert film.__dlpack__(dl_device=(1, 0), copy=False) is not None
     with pytest.raises(KeyError, match="noise"):
         film.to_dlpack("noise")
+    for version in ("1.0", (1,), 1):
+        with pytest.raises(TypeError):
+            film.to_dlpack(max_version=version)
     bare = dp.render(dp.Scene(), spp=1, size=(2, 2), first_hit=False)
     with pytest.raises(dp.Error, match="first_hit=False"):
         bare.to_dlpack("albedo")
