@@ -191,6 +191,8 @@ core::FileNodes edited_nodes(const Tables& before, const Tables& after, const co
 /// by itself, and hangs in no node from now on. Throws Error, and changes nothing, where a camera or a light is left
 /// without a direction.
 void follow_nodes(const core::FileNodes& before, const core::FileNodes& after, Tables& tables);
+/// The same where no node was edited; places the nodes only where a row may have let go of one.
+void let_go_of_nodes(const Tables& before, const core::FileNodes& nodes, Tables& tables);
 
 // validate.cpp: throw Error naming object, field and value.
 /// "materials[2] 'paint'".

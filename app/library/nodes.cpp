@@ -122,6 +122,19 @@ std::vector<Row> followed(const std::vector<Row>& table, const char* name, Matri
     return rows;
 }
 
+/// Whether what hangs in nodes is where it was.
+template <class Row>
+bool stand(const std::vector<Row>& before, const std::vector<Row>& after, Matrix Row::*matrix) {
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const bool same =
+            i < before.size() && before[i].node == after[i].node && before[i].*matrix == after[i].*matrix;
+        if (after[i].node != none && !same) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// References to the rows stay valid.
 template <class Row>
 void write(const std::vector<Row>& rows, std::vector<Row>& table) {
@@ -151,14 +164,12 @@ std::vector<Node> nodes_of(const core::Scene& scene, const core::FileNodes& node
 
 core::FileNodes edited_nodes(const Tables& before, const Tables& after, const core::FileNodes& nodes) {
     core::FileNodes edited = nodes;
-    bool any = false;
     for (std::size_t i = 0; i < after.nodes.size(); ++i) {
         const Node& node = after.nodes[i];
         edited.nodes[i].name = node.name;
         if (node.node_to_parent == before.nodes[i].node_to_parent) {
             continue;
         }
-        any = true;
         const glm::dmat4 matrix = to_core(node.node_to_parent);
         if (node.animated) {
             set_parts(matrix, object("nodes", i, node.name), edited.nodes[i]);
@@ -166,7 +177,7 @@ core::FileNodes edited_nodes(const Tables& before, const Tables& after, const co
             edited.nodes[i].matrix = matrix;
         }
     }
-    const std::vector<glm::dmat4> to_world = any ? place(edited.nodes) : std::vector<glm::dmat4>();
+    const std::vector<glm::dmat4> to_world = place(edited.nodes);
     for (std::size_t i = 0; i < to_world.size(); ++i) {
         for (const double value : from_core(to_world[i])) {
             if (!std::isfinite(value)) {
@@ -178,9 +189,6 @@ core::FileNodes edited_nodes(const Tables& before, const Tables& after, const co
 }
 
 void follow_nodes(const core::FileNodes& before, const core::FileNodes& after, Tables& tables) {
-    if (before.nodes.empty()) {
-        return;
-    }
     const Placement stood(before);
     const Placement stands(after);
     const auto instances = followed(tables.instances, "instances", &Instance::object_to_world, stood, stands);
@@ -189,6 +197,15 @@ void follow_nodes(const core::FileNodes& before, const core::FileNodes& after, T
     write(instances, tables.instances);
     write(cameras, tables.cameras);
     write(lights, tables.lights);
+}
+
+void let_go_of_nodes(const Tables& before, const core::FileNodes& nodes, Tables& tables) {
+    const bool all_stand = stand(before.instances, tables.instances, &Instance::object_to_world) &&
+                           stand(before.cameras, tables.cameras, &Camera::camera_to_world) &&
+                           stand(before.lights, tables.lights, &Light::light_to_world);
+    if (!all_stand) {
+        follow_nodes(nodes, nodes, tables);
+    }
 }
 
 DIPTYCH_END

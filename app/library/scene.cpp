@@ -40,10 +40,15 @@ core::Scene& SceneData::own_content() {
 std::shared_ptr<const core::Scene> SceneData::snapshot() {
     if (tables != synced) {
         check(tables, synced, *content, file_nodes.nodes.size());
-        core::FileNodes nodes = edited_nodes(synced, tables, file_nodes);
-        follow_nodes(file_nodes, nodes, tables);
-        apply(synced, tables, nodes, own_content());
-        file_nodes = std::move(nodes);
+        if (tables.nodes != synced.nodes) {
+            core::FileNodes nodes = edited_nodes(synced, tables, file_nodes);
+            follow_nodes(file_nodes, nodes, tables);
+            apply(synced, tables, nodes, own_content());
+            file_nodes = std::move(nodes);
+        } else {
+            let_go_of_nodes(synced, file_nodes, tables);
+            apply(synced, tables, file_nodes, own_content());
+        }
         synced = tables;
     }
     if (content->cameras.empty()) {
