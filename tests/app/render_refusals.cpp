@@ -109,8 +109,8 @@ TEST_CASE("render refuses bad sizes and counts", "[app]") {
 TEST_CASE("without a Vulkan device the Vulkan backend is refused and the CPU works", "[app]") {
     const TemporaryFolder folder;
     const std::string scene = generate_scene(folder, "cornell");
-    const std::string none = folder.file("no-driver.json");
-    const std::vector<std::string> no_driver = {"VK_DRIVER_FILES=" + none, "VK_ICD_FILENAMES=" + none,
+    const std::string missing = folder.file("no-driver.json");
+    const std::vector<std::string> no_driver = {"VK_DRIVER_FILES=" + missing, "VK_ICD_FILENAMES=" + missing,
                                                 "VK_ADD_DRIVER_FILES="};
     const std::vector<std::string> arguments = {"render", scene, "-o",       folder.file("out.exr"), "--spp", "1",
                                                 "--size", "8",   "--backend"};

@@ -159,10 +159,10 @@ TEST_CASE("Radiance pictures that are wrong are refused by what is wrong", "[ima
 
 TEST_CASE("a Radiance picture that a few bytes claim to hold is refused before its memory is taken", "[image]") {
     const TemporaryFolder folder;
-    const std::string pixels = rgbe(1, 2, 3) + rgbe(1, 1, 1, 255);
-    CHECK(contains(refusal(folder, plain_header + "-Y 16000 +X 16000\n" + pixels),
+    const std::string two = rgbe(1, 2, 3) + rgbe(1, 1, 1, 255);
+    CHECK(contains(refusal(folder, plain_header + "-Y 16000 +X 16000\n" + two),
                    "16000x16000 pixels take at least 128000 bytes, and the header is followed by 8"));
-    CHECK(contains(refusal(folder, plain_header + "-Y 1 +X 2147483647\n" + pixels), "more than Diptych reads"));
+    CHECK(contains(refusal(folder, plain_header + "-Y 1 +X 2147483647\n" + two), "more than Diptych reads"));
     CHECK(contains(refusal(folder, plain_header + "-Y 1024 +X 131072\n" + std::string(8192, '\x7f')),
                    "cannot hold the 131072x1024 pixels that its header claims"));
 }

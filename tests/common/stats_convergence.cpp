@@ -168,8 +168,8 @@ TEST_CASE("a reference taken for exact makes its noise a bias", "[stats]") {
     std::vector<float> variance;
     const DeviationSums sums = made_up_sums(16, 3 * 32 * 32, 0, 0.3, random, variance);
     CHECK(bias_squared(sums, variance, {}, 32, 3, 4).p > 0.001);
-    const std::vector<float> none(variance.size(), 0.0F);
-    const BiasSquared wrong = bias_squared(sums, none, {}, 32, 3, 4);
+    const std::vector<float> noiseless(variance.size(), 0.0F);
+    const BiasSquared wrong = bias_squared(sums, noiseless, {}, 32, 3, 4);
     CHECK(wrong.value == Approx(0.09).epsilon(0.1));
     CHECK(wrong.p < 1e-6);
 }

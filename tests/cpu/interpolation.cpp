@@ -161,11 +161,11 @@ TEST_CASE("Every vector of 1e-36 to 1e37 has its direction, along any axis, and 
         }
     }
     const float infinite = std::numeric_limits<float>::infinity();
-    for (const float none : {0.0F, 1e-38F, -1e-38F, infinite, -infinite}) {
+    for (const float extreme : {0.0F, 1e-38F, -1e-38F, infinite, -infinite}) {
         for (int axis = 0; axis < 3; ++axis) {
             glm::vec3 v(0);
-            v[axis] = none;
-            CAPTURE(none, axis);
+            v[axis] = extreme;
+            CAPTURE(extreme, axis);
             CHECK(kernel.normalize_or(v, fallback) == fallback);
         }
     }

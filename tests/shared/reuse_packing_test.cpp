@@ -188,21 +188,21 @@ TEST_CASE("The target is Lambert plus the specular lobe above the surface, and 0
 }
 
 TEST_CASE("Surfaces are alike that face alike within a cosine of 0.85 and lie in one plane within a twentieth of the eye's distance") {
-    const vec3 up(0.0f, 0.0f, 1.0f);
+    const vec3 upward(0.0f, 0.0f, 1.0f);
     const vec3 eye(0.0f, 0.0f, 10.0f);
-    const ReuseSurface a = placed(vec3(0.0f, 0.0f, 0.0f), up);
+    const ReuseSurface a = placed(vec3(0.0f, 0.0f, 0.0f), upward);
     const auto tilted = [](float cosine) { return vec3(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine); };
-    CHECK(is_similar(a, placed(vec3(3.0f, 2.0f, 0.0f), up), eye));
+    CHECK(is_similar(a, placed(vec3(3.0f, 2.0f, 0.0f), upward), eye));
     CHECK(is_similar(a, placed(vec3(0.0f, 0.0f, 0.0f), tilted(0.86f)), eye));
     CHECK(!is_similar(a, placed(vec3(0.0f, 0.0f, 0.0f), tilted(0.84f)), eye));
     for (const float side : {-1.0f, 1.0f}) {
-        CHECK(is_similar(a, placed(vec3(1.0f, 0.0f, side * 0.49f), up), eye));
-        CHECK(!is_similar(a, placed(vec3(1.0f, 0.0f, side * 0.51f), up), eye));
+        CHECK(is_similar(a, placed(vec3(1.0f, 0.0f, side * 0.49f), upward), eye));
+        CHECK(!is_similar(a, placed(vec3(1.0f, 0.0f, side * 0.51f), upward), eye));
     }
     // The distance is that of the first, wherever both are.
-    const ReuseSurface b = placed(vec3(4.0f, 5.0f, 6.0f), up);
-    CHECK(is_similar(b, placed(vec3(9.0f, 5.0f, 6.45f), up), vec3(4.0f, 5.0f, 16.0f)));
-    CHECK(!is_similar(b, placed(vec3(4.0f, 5.0f, 6.55f), up), vec3(4.0f, 5.0f, 16.0f)));
+    const ReuseSurface b = placed(vec3(4.0f, 5.0f, 6.0f), upward);
+    CHECK(is_similar(b, placed(vec3(9.0f, 5.0f, 6.45f), upward), vec3(4.0f, 5.0f, 16.0f)));
+    CHECK(!is_similar(b, placed(vec3(4.0f, 5.0f, 6.55f), upward), vec3(4.0f, 5.0f, 16.0f)));
     CHECK(!is_similar(a, no_reuse_surface(), eye));
     CHECK(!is_similar(no_reuse_surface(), a, eye));
 }

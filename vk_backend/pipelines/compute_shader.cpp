@@ -54,9 +54,9 @@ void ComputeShader::run(std::span<const Buffer* const> buffers, std::uint32_t co
 }
 
 Buffer make_storage(const Gpu& gpu, std::uint64_t bytes) {
-    using Usage = vk::BufferUsageFlagBits;
-    return make_buffer(gpu, Purpose::other, bytes,
-                       Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst, MemoryKind::device);
+    using Bits = vk::BufferUsageFlagBits;
+    return make_buffer(gpu, Purpose::other, bytes, Bits::eStorageBuffer | Bits::eTransferSrc | Bits::eTransferDst,
+                       MemoryKind::device);
 }
 
 }  // namespace diptych::core
