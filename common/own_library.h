@@ -5,10 +5,11 @@
 
 namespace diptych::core {
 
-/// Opens the shared object `name`: beside the program or library that holds this code, in the folder of libraries of
-/// its installed tree, in the folder above, or else where the dynamic linker finds it. `binding` is RTLD_NOW, which
-/// refuses an object that lacks a function, or RTLD_LAZY, which loads sooner. Its symbols stay its own. nullptr where
-/// there is none or it does not load; dlerror() then says why.
+/// Opens the shared object `name`. Looks beside the program or library that holds this code, then in the library folder
+/// of its installed tree, then in the folder above (for test programs). The first file found is opened. If there is
+/// none, the dynamic linker searches by name. `binding` is RTLD_NOW, with which an object that needs a missing function
+/// fails to load, or RTLD_LAZY, which loads faster but ends the process at the first call of a missing function. The
+/// object's symbols are visible to nobody else (RTLD_LOCAL). Returns nullptr on failure; dlerror() then says why.
 void* open_own_library(const std::string& name, int binding);
 
 }  // namespace diptych::core

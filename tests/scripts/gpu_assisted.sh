@@ -1,20 +1,22 @@
 #!/usr/bin/env bash
-# tests/scripts/gpu_assisted.sh BUILD FOLDER...: runs the device tests of these folders under the validation layer's
-# GPU-assisted and synchronisation checks, and fails at any message. Exit code 77 where there is no layer that can.
+# tests/scripts/gpu_assisted.sh BUILD FOLDER...: runs the everyday tests of these folders of tests/ (gpu, panels) under
+# the validation layer's GPU-assisted and synchronisation checks, and fails if a test fails or the layer prints a
+# message. Exit code 77 (skipped) if no suitable layer is installed or can be fetched.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../../cmake/setup.sh"
 build=$1
 shift
 
-# Layers before this one count a vec3 as 16 bytes, which in scalar layout it is not: they report reads at the end of a
-# buffer that are none beyond it, and give the shader zeros instead (KhronosGroup/SPIRV-Tools issue 4992).
+# Older layers take a vec3 for 16 bytes, but it has 12 in scalar layout. So they report valid reads at the end of a
+# buffer as out of bounds, and give the shader zeros instead (KhronosGroup/SPIRV-Tools issue 4992).
 least=1.3.268
 version_in() {
     sed -n 's/.*"api_version": *"\([0-9.]*\)".*/\1/p' "$1/VkLayer_khronos_validation.json" 2>/dev/null || true
 }
 is_new() { [ -n "$1" ] && [ "$(printf '%s\n' "$least" "$1" | sort -V | head -n 1)" = "$least" ]; }
 
-# Debian 13's layer, with the C and C++ libraries that it needs, beside the system's own: from this Debian's mirror.
+# Unpacks Debian 13's layer, with the C and C++ libraries that it needs, into folder $1; nothing is installed. The
+# packages come from the mirror that this machine's apt uses.
 fetch_layer() {
     local folder=$1 suite options
     [ ! -d "$folder/root" ] || return 0
@@ -45,11 +47,11 @@ if ! is_new "$version"; then
 fi
 echo "validation layer $version"
 
-# What the layer says of itself is left out: that it is slow, and which features it turns on for its own shaders.
+# The filter drops the layer's messages about itself: that it is slow, and which features it turns on for its shaders.
 export VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT DIPTYCH_VALIDATION=1
 export VK_LAYER_MESSAGE_ID_FILTER=VALIDATION-SETTINGS,WARNING-GPU-Assisted-Validation
 
-# These two provoke messages.
+# These two tests provoke messages, so they run apart from the others, whose output must have none.
 provoked=("Validation reports a write that races with another, and counts it"
           "GPU-assisted validation reports a read beyond the end of a buffer by its address")
 others="~[nightly]"
