@@ -40,6 +40,9 @@ bool feature(uint bit) { return (FEATURES & bit) != 0u; }
 #define ALIGN_AliasEntry 8
 #define ALIGN_LightCluster 16
 #define ALIGN_ClusterPick 4
+#define ALIGN_LightNode 16
+#define ALIGN_LeafPick 4
+#define ALIGN_LightPlace 8
 
 #define DECLARE_REFERENCE(Type, name)                                                                    \
     layout(buffer_reference, scalar, buffer_reference_align = ALIGN_##Type) readonly buffer name##_buffer { \

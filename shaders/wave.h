@@ -19,7 +19,7 @@ struct WavePath {
     vec3 reference;
     uint rays;  // traced so far
     vec3 radiance;
-    uint padding;  // to a multiple of 16 bytes, so that loads are four words wide
+    uint facing;  // a multiple of 16 bytes ends here, so that loads are four words wide
 };
 ASSERT_SIZE(WavePath, 80);
 

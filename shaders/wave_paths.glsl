@@ -16,7 +16,7 @@ WavePath pack_path(PathState path) {
     packed.reference = path.reference;
     packed.rays = path.found.rays;
     packed.radiance = path.found.radiance;
-    packed.padding = 0u;
+    packed.facing = path.facing;
     return packed;
 }
 
@@ -40,6 +40,7 @@ PathState unpack_path(WavePath packed, uvec2 pixel, uint sample_index) {
     path.direction = packed.direction;
     path.throughput = packed.throughput;
     path.reference = packed.reference;
+    path.facing = packed.facing;
     path.pdf_direction = packed.pdf_direction;
     path.only_strategy = (packed.state & WAVE_ONLY_STRATEGY) != 0u;
     path.goes_on = true;

@@ -14,6 +14,7 @@
 #include "lights/light_clusters.h"
 #include "lights/light_point.h"
 #include "lights/light_sample.h"
+#include "lights/light_tree.h"
 #include "path/integrators.h"
 #include "path/mis.h"
 #include "path/path_record.h"

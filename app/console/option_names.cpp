@@ -18,6 +18,7 @@ constexpr OptionName names[] = {
     {"ignored_extensions", "--ignore-extension"},
     {"integrator", "--integrator"},
     {"layers", "--layers"},
+    {"light_sampler", "--light-sampler"},
     {"look_at", "--look-at"},
     {"memory_limit", "--memory-limit"},
     {"methods", "--methods"},

@@ -80,6 +80,7 @@ void add_picture_options(std::string& command, const RenderRequest& request) {
     if (!oracle) {
         add_option(command, "--sampler", name_of(settings.sampler));
         add_option(command, "--mis", name_of(settings.mis));
+        add_option(command, "--light-sampler", name_of(settings.light_sampler));
     }
     if (!oracle && settings.sampler == SamplerKind::hammersley) {
         add_option(command, "--sample-count", settings.sample_count);

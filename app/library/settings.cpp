@@ -14,6 +14,7 @@ static_assert(static_cast<int>(core::BrdfModel::blinn_phong) == static_cast<int>
 static_assert(static_cast<int>(core::NormalMaps::microfacet) == static_cast<int>(NormalMaps::microfacet) + 1);
 static_assert(static_cast<int>(core::SamplerKind::sobol) == static_cast<int>(SamplerKind::sobol));
 static_assert(static_cast<int>(core::MisHeuristic::balance) == static_cast<int>(MisHeuristic::balance));
+static_assert(static_cast<int>(core::LightSampler::spatial) == static_cast<int>(LightSampler::spatial));
 static_assert(static_cast<int>(core::ResamplingMis::biased_one_over_m) ==
               static_cast<int>(ResamplingMis::biased_one_over_m));
 static_assert(static_cast<int>(core::ResamplingVisibility::biased_final) ==
@@ -28,6 +29,7 @@ core::RenderSettings to_core(const Settings& s) {
     out.normal_maps = static_cast<core::NormalMaps>(static_cast<int>(s.normal_maps) + 1);
     out.sampler = static_cast<core::SamplerKind>(s.sampler);
     out.mis = static_cast<core::MisHeuristic>(s.mis);
+    out.light_sampler = static_cast<core::LightSampler>(s.light_sampler);
     out.max_depth = s.max_depth;
     out.seed = s.seed;
     out.sample_count = s.sample_count;
@@ -56,6 +58,7 @@ Settings from_core(const core::RenderSettings& s) {
     out.normal_maps = static_cast<NormalMaps>(static_cast<int>(s.normal_maps) - 1);
     out.sampler = static_cast<SamplerKind>(s.sampler);
     out.mis = static_cast<MisHeuristic>(s.mis);
+    out.light_sampler = static_cast<LightSampler>(s.light_sampler);
     out.max_depth = s.max_depth;
     out.seed = s.seed;
     out.sample_count = s.sample_count;

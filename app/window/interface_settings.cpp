@@ -35,6 +35,10 @@ void draw_sampling(const Theme& theme, RenderSettings& settings) {
         choose(theme, "mis", {MisHeuristic::power, MisHeuristic::balance}, settings.mis,
                "MIS weights of light and BSDF sampling");
     }
+    if (settings.integrator != Integrator::brdf) {
+        choose(theme, "light-sampler", {LightSampler::uniform, LightSampler::power, LightSampler::spatial},
+               settings.light_sampler, "How a vertex picks a light: all alike, by power, or also by distance and direction");
+    }
 }
 
 void draw_light(const Theme& theme, const InterfaceFacts& facts, RenderRequest& request) {

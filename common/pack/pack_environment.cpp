@@ -66,16 +66,22 @@ void pack_environment(const Scene& scene, const RenderSettings& settings, Packed
     std::vector<double> weights;
     weights.reserve(e.texels.size());
     double mean = 0;
+    glm::dvec3 heading(0);
     for (int y = 0; y < e.height; ++y) {
         const double top = std::numbers::pi * y / e.height;
         const double bottom = std::numbers::pi * (y + 1) / e.height;
         const double solid_angle = 2 * std::numbers::pi / e.width * (std::cos(top) - std::cos(bottom));
+        const double height = std::cos(0.5 * (top + bottom));
+        const double sine = std::sin(0.5 * (top + bottom));
         for (int x = 0; x < e.width; ++x) {
+            const double turn = 2 * std::numbers::pi * ((x + 0.5) / e.width - 0.5);
             weights.push_back(filtered_luminance(e, packed.environment_tint, x, y) * solid_angle);
             mean += weights.back() / (4 * std::numbers::pi);
+            heading += weights.back() * glm::dvec3(sine * std::sin(turn), height, -sine * std::cos(turn));
         }
     }
     packed.environment_mean = mean;
+    packed.environment_heading = mean > 0 ? heading / (4 * std::numbers::pi * mean) : glm::dvec3(0);
     const std::vector<double> pmf = pick_probabilities(weights, 0.0);
     packed.environment_texels.reserve(e.texels.size());
     for (std::size_t i = 0; i < e.texels.size(); ++i) {

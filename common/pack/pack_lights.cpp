@@ -160,6 +160,8 @@ void place_emitters(PackedScene& packed, std::size_t instance, bool materials_ch
 
 void place_punctual_lights(const Scene& scene, PackedScene& packed) {
     std::vector<double>& powers = packed.light_powers;
+    const bool has_sky = powers.size() > packed.emissive_triangles.size() + packed.punctual_lights.size();
+    const double sky = has_sky ? powers.back() : 0;
     powers.resize(packed.emissive_triangles.size());
     packed.punctual_lights.clear();
     for (const PunctualLight& light : scene.lights) {
@@ -187,6 +189,9 @@ void place_punctual_lights(const Scene& scene, PackedScene& packed) {
             break;
         }
         packed.punctual_lights.push_back(out);
+    }
+    if (has_sky) {
+        powers.push_back(sky);
     }
 }
 
@@ -221,10 +226,11 @@ void weigh_lights(PackedScene& packed) {
     constants.emissive_triangle_count = static_cast<std::uint32_t>(packed.emissive_triangles.size());
     constants.punctual_light_count = static_cast<std::uint32_t>(packed.punctual_lights.size());
     weigh_clusters(packed);
+    weigh_light_tree(packed);
     find_reach(packed);
 }
 
-void pack_lights(const Scene& scene, PackedScene& packed) {
+void pack_lights(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
     if (shared::samples_lights(packed.constants.integrator)) {
         lay_out_emitters(packed);
     }
@@ -242,6 +248,7 @@ void pack_lights(const Scene& scene, PackedScene& packed) {
         cluster_lights(packed);
         weigh_clusters(packed);
     }
+    choose_light_sampler(settings.light_sampler, packed);
 }
 
 }  // namespace diptych::core

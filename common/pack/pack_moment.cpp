@@ -136,6 +136,9 @@ void pack_moment(const Scene& scene, const RenderSettings& settings, PackedScene
     rename_if(weigh, revisions.light_table);
     rename_if(weigh, revisions.light_clusters);
     rename_if(weigh, revisions.cluster_picks);
+    rename_if(weigh, revisions.light_nodes);
+    rename_if(weigh, revisions.light_places);
+    rename_if(weigh, revisions.leaf_picks);
     pack_camera(scene, settings, packed);
 }
 

@@ -46,8 +46,8 @@ void place_environment(const Scene& scene, PackedScene& packed);
 /// Its scale over the largest component; 0 where that is 0. What its tables were built under.
 glm::vec3 environment_tint(const Environment& environment);
 
-/// Emissive triangles, punctual lights and the table that picks among all lights. Needs everything above.
-void pack_lights(const Scene& scene, PackedScene& packed);
+/// Emissive triangles, punctual lights, and what picks among all lights. Needs everything above.
+void pack_lights(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 /// Places the lights of one instance anew, its means too where the materials changed.
 void place_emitters(PackedScene& packed, std::size_t instance, bool materials_changed);
@@ -63,6 +63,13 @@ void cluster_lights(PackedScene& packed);
 
 /// What the clusters are worth and how their lights are picked, from the probabilities that weigh_lights gives.
 void weigh_clusters(PackedScene& packed);
+
+/// Resolves the setting: builds the light tree where the setting wants one and there are two lights to choose from,
+/// else removes it. Sets the tree's feature bit. Needs the lights' powers.
+void choose_light_sampler(LightSampler wanted, PackedScene& packed);
+
+/// What the light tree's nodes emit, from the lights as they are now; the tree keeps its form.
+void weigh_light_tree(PackedScene& packed);
 
 /// What moves becomes the moment before, where reuse will look back to it; until then that is this one.
 void keep_previous(PackedScene& packed);

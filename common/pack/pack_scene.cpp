@@ -77,7 +77,7 @@ PackedScene pack_scene(const Scene& scene, const RenderSettings& settings) {
     pack_instances(scene, plan, packed);
     pack_camera(scene, settings, packed);
     pack_environment(scene, settings, packed);
-    pack_lights(scene, packed);
+    pack_lights(scene, settings, packed);
     // A reader of the last vertex may fetch 16 bytes at once, as Embree does.
     packed.positions.emplace_back(0.0F);
 #define NAME_CONTENTS(Type, name) packed.revisions.name = new_revision();
@@ -121,7 +121,8 @@ bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedS
         shared::FEATURE_TEXTURES | shared::FEATURE_NORMAL_MAPS | shared::FEATURE_SECOND_UV;
     const std::uint32_t features = needed_features(scene, settings);
     const bool lays_out_lights = samples_lights(settings.integrator);
-    if (((features ^ packed.features) & of_arrays) != 0 ||
+    const bool forms_tree = settings.light_sampler == LightSampler::spatial && !packed.tree_was_sought;
+    if (((features ^ packed.features) & of_arrays) != 0 || (forms_tree && packed.moves) ||
         lays_out_lights != shared::samples_lights(packed.constants.integrator) ||
         environment_tint(scene.environment) != packed.environment_tint ||
         scene.lights.size() != packed.punctual_lights.size()) {
@@ -135,6 +136,7 @@ bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedS
     if (resamples(settings.integrator) != resampled) {
         recluster(packed, resamples(settings.integrator));
     }
+    choose_light_sampler(settings.light_sampler, packed);
     forget_previous(packed);
     keep_previous(packed);
     return true;

@@ -23,6 +23,9 @@ ASSERT_SAME(SamplerKind::hammersley, SAMPLER_HAMMERSLEY);
 ASSERT_SAME(SamplerKind::sobol, SAMPLER_SOBOL);
 ASSERT_SAME(MisHeuristic::power, MIS_POWER);
 ASSERT_SAME(MisHeuristic::balance, MIS_BALANCE);
+ASSERT_SAME(LightSampler::uniform, LIGHT_SAMPLER_UNIFORM);
+ASSERT_SAME(LightSampler::power, LIGHT_SAMPLER_POWER);
+ASSERT_SAME(LightSampler::spatial, LIGHT_SAMPLER_SPATIAL);
 ASSERT_SAME(ResamplingMis::pairwise, RESAMPLING_PAIRWISE);
 ASSERT_SAME(ResamplingMis::balance, RESAMPLING_BALANCE);
 ASSERT_SAME(ResamplingMis::one_over_z, RESAMPLING_ONE_OVER_Z);
@@ -59,6 +62,7 @@ void pack_settings(const RenderSettings& settings, shared::RenderConstants& c) {
     c.brdf = static_cast<std::uint32_t>(settings.brdf);
     c.normal_maps = static_cast<std::uint32_t>(settings.normal_maps);
     c.mis = static_cast<std::uint32_t>(settings.mis);
+    c.light_sampler = static_cast<std::uint32_t>(settings.light_sampler);
     c.atlas_tile = settings.atlas_tile;
     const ResamplingSettings& from = settings.resampling;
     c.resampling.light_candidates = from.light_candidates;

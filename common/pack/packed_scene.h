@@ -69,6 +69,7 @@ struct PackedScene : shared::SceneBuffers {
     double radius = 1;                           // of the scene as first packed, for picking probabilities
     double environment_luminance = 0;            // mean over the sphere
     double environment_mean = 0;                 // the same where the largest component of its scale is 1
+    glm::dvec3 environment_heading{0};           // mean direction of its light in the map's frame; length at most 1
     glm::vec3 environment_tint{0};               // its scale over the largest component; 0 where that is 0
     std::vector<MeshFrame> mesh_frames;          // parallel to meshes
     double reach = 1;                            // the largest distance of any instance from the origin, at least 1
@@ -77,6 +78,8 @@ struct PackedScene : shared::SceneBuffers {
     std::vector<double> emitter_means;           // parallel to emissive_triangles: mean luminance of what they emit
     std::vector<double> light_powers;            // what light_table was built from
     std::vector<std::uint32_t> part_of_light;    // parallel to light_powers but for the environment; empty: no clusters
+    std::vector<std::uint32_t> tree_lights;      // parallel to leaf_picks: the lights of the light tree, leaf by leaf
+    bool tree_was_sought = false;                // and where light_nodes is empty, there is nothing to choose from
     bool moves = false;                          // light_table keeps its size even where all is dark
 };
 
@@ -110,7 +113,8 @@ void pack_view(const Scene& scene, const RenderSettings& settings, PackedScene& 
 
 /// Goes on with other settings where no array's size or order depends on them: size, depth, sampler, weights, seed,
 /// most integrators. The scene may stand at another moment, which becomes the moment before as well. As pack_scene of
-/// it would have it, but for origin, radius and clusters of lights, which stay. False, and nothing is done, where pack_scene must run anew.
+/// it would have it, but for origin, radius, clusters of lights and the form of the light tree, which stay. False, and
+/// nothing is done, where pack_scene must run anew: also for a light tree whose lights move, which is formed at rest.
 bool repack_settings(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 }  // namespace diptych::core

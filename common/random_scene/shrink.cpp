@@ -140,6 +140,7 @@ std::vector<Drop> all_drops() {
     }
     drops.emplace_back([](RandomScene& r) { return set(r.settings.brdf, BrdfModel::ggx); });
     drops.emplace_back([](RandomScene& r) { return set(r.settings.normal_maps, NormalMaps::shading); });
+    drops.emplace_back([](RandomScene& r) { return set(r.settings.light_sampler, LightSampler::power); });
     return drops;
 }
 

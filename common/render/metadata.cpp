@@ -41,6 +41,7 @@ std::map<std::string, std::string> render_metadata(const RenderRequest& request,
         add("sampler", name_of(settings.sampler));
         add("sample_count", settings.sample_count);
         add("mis", name_of(settings.mis));
+        add("light_sampler", name_of(settings.light_sampler));
         add("generic", yes_or_no(settings.generic));
         add("warm_up", request.warm_up);
         add("correlated", yes_or_no(reuses(settings.integrator)));

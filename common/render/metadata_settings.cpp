@@ -66,6 +66,8 @@ RenderSettings settings_in(const std::map<std::string, std::string>& metadata) {
     entries.choice("normal_maps", settings.normal_maps, normal_maps_from_name);
     entries.choice("sampler", settings.sampler, sampler_from_name);
     entries.choice("mis", settings.mis, mis_from_name);
+    settings.light_sampler = LightSampler::power;  // of pictures that are older than the setting
+    entries.choice("light_sampler", settings.light_sampler, light_sampler_from_name);
     entries.number(ranges::max_depth, settings.max_depth);
     entries.number("seed", settings.seed);
     entries.number("sample_count", settings.sample_count);

@@ -17,8 +17,8 @@ auto tie_resampling(const ResamplingSettings& r) {
 }
 
 auto tie_settings(const RenderSettings& s) {
-    return std::tie(s.width, s.height, s.integrator, s.brdf, s.normal_maps, s.sampler, s.mis, s.max_depth,
-                    s.sample_count, s.camera, s.standard_error, s.first_hit_layers, s.generic, s.moves, s.atlas_tile);
+    return std::tie(s.width, s.height, s.integrator, s.brdf, s.normal_maps, s.sampler, s.mis,
+                    s.light_sampler, s.max_depth, s.sample_count, s.camera, s.standard_error, s.first_hit_layers, s.generic, s.moves, s.atlas_tile);
 }
 
 /// What of a camera decides which code and which film is needed. It stays for a camera that is the scene's own.

@@ -32,6 +32,8 @@ constexpr Choice<BrdfModel> brdfs[] = {{"ggx", BrdfModel::ggx}, {"blinn-phong", 
 constexpr Choice<NormalMaps> normal_maps[] = {{"shading", NormalMaps::shading}, {"microfacet", NormalMaps::microfacet}};
 constexpr Choice<SamplerKind> samplers[] = {
     {"independent", SamplerKind::independent}, {"hammersley", SamplerKind::hammersley}, {"sobol", SamplerKind::sobol}};
+constexpr Choice<LightSampler> light_samplers[] = {
+    {"uniform", LightSampler::uniform}, {"power", LightSampler::power}, {"spatial", LightSampler::spatial}};
 constexpr Choice<MisHeuristic> heuristics[] = {{"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}};
 
 template <typename T, std::size_t N>
@@ -74,6 +76,9 @@ const char* name_of(SamplerKind sampler) {
 const char* name_of(MisHeuristic mis) {
     return name_in(heuristics, mis);
 }
+const char* name_of(LightSampler sampler) {
+    return name_in(light_samplers, sampler);
+}
 const char* name_of(ResamplingMis mis) {
     return name_in(resampling_mis, mis);
 }
@@ -101,6 +106,9 @@ ResamplingVisibility resampling_visibility_from_name(const std::string& name) {
 }
 MisHeuristic mis_from_name(const std::string& name) {
     return value_in(heuristics, "mis", name);
+}
+LightSampler light_sampler_from_name(const std::string& name) {
+    return value_in(light_samplers, "light_sampler", name);
 }
 
 }  // namespace diptych::core

@@ -12,6 +12,7 @@ const char* name_of(BrdfModel brdf);
 const char* name_of(NormalMaps model);
 const char* name_of(SamplerKind sampler);
 const char* name_of(MisHeuristic mis);
+const char* name_of(LightSampler sampler);
 const char* name_of(ResamplingMis mis);
 const char* name_of(ResamplingVisibility visibility);
 
@@ -21,6 +22,7 @@ BrdfModel brdf_from_name(const std::string& name);
 NormalMaps normal_maps_from_name(const std::string& name);
 SamplerKind sampler_from_name(const std::string& name);
 MisHeuristic mis_from_name(const std::string& name);
+LightSampler light_sampler_from_name(const std::string& name);
 ResamplingMis resampling_mis_from_name(const std::string& name);
 ResamplingVisibility resampling_visibility_from_name(const std::string& name);
 

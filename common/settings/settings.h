@@ -12,6 +12,7 @@ enum class BrdfModel { ggx, blinn_phong };
 enum class NormalMaps { shading = 1, microfacet = 2 };  // 0 is a surface without a map
 enum class SamplerKind { independent, hammersley, sobol };
 enum class MisHeuristic { power, balance };
+enum class LightSampler { uniform, power, spatial };
 enum class ResamplingMis { pairwise, balance, one_over_z, biased_one_over_m };
 enum class ResamplingVisibility { shading, target, biased_initial, biased_final };
 
@@ -53,6 +54,7 @@ struct RenderSettings {
     NormalMaps normal_maps = NormalMaps::shading;
     SamplerKind sampler = SamplerKind::sobol;
     MisHeuristic mis = MisHeuristic::power;
+    LightSampler light_sampler = LightSampler::spatial;
     std::uint32_t max_depth = 8;  // scattering events; 1 is emission plus direct light
     std::uint32_t seed = 0;
     std::uint32_t sample_count = 64;  // samples a pixel that a Hammersley set is laid out for

@@ -23,6 +23,7 @@ constexpr std::uint32_t diffuse_features = shared::FEATURE_EMISSIVE | shared::FE
                                            shared::FEATURE_STANDARD_ERROR | shared::FEATURE_FIRST_HIT_LAYERS |
                                            shared::FEATURE_LIGHT_SAMPLING | shared::FEATURE_LATER_VERTICES;
 constexpr std::uint32_t plain_features = diffuse_features | shared::FEATURE_GGX;
+constexpr std::uint32_t tree = shared::FEATURE_LIGHT_TREE;
 
 class CpuRenderer final : public Renderer {
 public:
@@ -211,16 +212,22 @@ private:
     }
 
     void accumulate(Film& film, std::uint32_t first, std::uint32_t count, const std::atomic<bool>* cancel) const {
-        const bool diffuse = (packed_->features & ~diffuse_features) == 0;
-        const bool plain = (packed_->features & ~plain_features) == 0;
+        const std::uint32_t features = packed_->features;
+        const bool has_tree = (features & tree) != 0;
+        const bool diffuse = (features & ~(diffuse_features | tree)) == 0;
+        const bool plain = (features & ~(plain_features | tree)) == 0;
         for_tiles([&](int x, int y) {
             if (cancel != nullptr && *cancel) {
                 return;
             }
-            if (diffuse) {
+            if (diffuse && !has_tree) {
                 accumulate_flat_tile<diffuse_features>(film, x, y, first, count);
-            } else if (plain) {
+            } else if (diffuse) {
+                accumulate_flat_tile<diffuse_features | tree>(film, x, y, first, count);
+            } else if (plain && !has_tree) {
                 accumulate_flat_tile<plain_features>(film, x, y, first, count);
+            } else if (plain) {
+                accumulate_flat_tile<plain_features | tree>(film, x, y, first, count);
             } else {
                 shared::CpuKernel<PlainTracer, ~0U> kernel{*packed_, constants_, {*scene_}};
                 accumulate_tile(kernel, film, x, y, first, count);

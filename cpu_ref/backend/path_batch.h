@@ -25,6 +25,7 @@ public:
         alive_count_ = count;
         while (alive_count_ > 0) {
             arrive();
+            pick_lights();
             sample_emitters();
             leave();
         }
@@ -53,13 +54,20 @@ private:
         alive_count_ = arrived;
     }
 
+    /// On its own, so that the processor overlaps the searches of several vertices.
+    void pick_lights() {
+        for (int k = 0; k < alive_count_; ++k) {
+            kernel_.pick_vertex_light(vertices_[k]);
+        }
+    }
+
     void sample_emitters() {
         int vertex_of[size];
         int used = 0;
         for (int k = 0; k < alive_count_; ++k) {
             const Vertex& v = vertices_[k];
-            if (kernel_.is_emitter(v.light)) {
-                lanes_.put(used, kernel_.load_emissive_triangles(v.light), v.position,
+            if (kernel_.is_emitter(v.light.id)) {
+                lanes_.put(used, kernel_.load_emissive_triangles(v.light.id), v.position,
                            kernel_.light_point_draws(v.draws));
                 vertex_of[used++] = k;
             }
@@ -71,7 +79,7 @@ private:
             Vertex& v = vertices_[vertex_of[lane]];
             v.on_emitter = lanes_.get(lane);
             if (!(v.on_emitter.pdf > 0)) {
-                v.on_emitter = kernel_.sample_emitter_point(kernel_.load_emissive_triangles(v.light), v.position,
+                v.on_emitter = kernel_.sample_emitter_point(kernel_.load_emissive_triangles(v.light.id), v.position,
                                                             kernel_.light_point_draws(v.draws));
             }
         }

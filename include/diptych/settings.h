@@ -18,6 +18,7 @@ enum class BrdfModel { ggx, blinn_phong };
 enum class NormalMaps { shading, microfacet };
 enum class SamplerKind { independent, hammersley, sobol };
 enum class MisHeuristic { power, balance };
+enum class LightSampler { uniform, power, spatial };
 enum class ResamplingMis { pairwise, balance, one_over_z, biased_one_over_m };
 enum class ResamplingVisibility { shading, target, biased_initial, biased_final };
 
@@ -54,6 +55,7 @@ struct Settings {
     SamplerKind sampler = SamplerKind::sobol;
     std::uint32_t sample_count = 64;  // samples a pixel that a Hammersley set is laid out for
     MisHeuristic mis = MisHeuristic::power;
+    LightSampler light_sampler = LightSampler::spatial;  // how path and direct pick a light
     BrdfModel brdf = BrdfModel::ggx;
     NormalMaps normal_maps = NormalMaps::shading;
     bool standard_error = true;  // keep second moments

@@ -26,6 +26,7 @@ class SettingChanges(TypedDict, total=False):
     sampler: Literal["independent", "hammersley", "sobol"]
     sample_count: int
     mis: Literal["power", "balance"]
+    light_sampler: Literal["uniform", "power", "spatial"]
     brdf: Literal["ggx", "blinn-phong"]
     normal_maps: Literal["shading", "microfacet"]
     standard_error: bool

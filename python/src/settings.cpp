@@ -19,6 +19,8 @@ const Choices<NormalMaps> normal_maps = {{"shading", NormalMaps::shading}, {"mic
 const Choices<SamplerKind> samplers = {
     {"independent", SamplerKind::independent}, {"hammersley", SamplerKind::hammersley}, {"sobol", SamplerKind::sobol}};
 const Choices<MisHeuristic> heuristics = {{"power", MisHeuristic::power}, {"balance", MisHeuristic::balance}};
+const Choices<LightSampler> light_samplers = {
+    {"uniform", LightSampler::uniform}, {"power", LightSampler::power}, {"spatial", LightSampler::spatial}};
 const Choices<ResamplingMis> resampling_mis = {{"pairwise", ResamplingMis::pairwise},
                                                {"balance", ResamplingMis::balance},
                                                {"1-over-z", ResamplingMis::one_over_z},
@@ -67,6 +69,8 @@ const std::vector<Field>& fields() {
             "sample_count", &S::sample_count, 1, 0xFFFFFFFFLL,
             "Samples a pixel that a Hammersley set is laid out for; diptych.render takes spp where it is not given."),
         choice("mis", &S::mis, heuristics, "MIS weights of path: power or balance."),
+        choice("light_sampler", &S::light_sampler, light_samplers,
+               "How path and direct pick a light: uniform, power or spatial."),
         choice("brdf", &S::brdf, brdfs, "Microfacet model: ggx or blinn-phong."),
         choice("normal_maps", &S::normal_maps, normal_maps, "What a normal map does: shading or microfacet."),
         flag("standard_error", &S::standard_error, "Keep second moments, and so Film.standard_error."),

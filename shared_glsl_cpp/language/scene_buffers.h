@@ -25,6 +25,9 @@
     X(AliasEntry, light_table)              \
     X(LightCluster, light_clusters)         \
     X(ClusterPick, cluster_picks)           \
+    X(LightNode, light_nodes)               \
+    X(LightPlace, light_places)             \
+    X(LeafPick, leaf_picks)                 \
     X(vec4, environment_texels)             \
     X(AliasEntry, environment_table)        \
     X(Instance, previous_instances)         \
@@ -40,6 +43,9 @@
     X(AliasEntry, light_table)              \
     X(LightCluster, light_clusters)         \
     X(ClusterPick, cluster_picks)           \
+    X(LightNode, light_nodes)               \
+    X(LightPlace, light_places)             \
+    X(LeafPick, leaf_picks)                 \
     X(Instance, previous_instances)         \
     X(EmissiveTriangle, previous_emissive_triangles) \
     X(PunctualLight, previous_punctual_lights)

@@ -30,7 +30,8 @@
     X("motion", FEATURE_MOTION, 19) \
     X("later-vertices", FEATURE_LATER_VERTICES, 20) \
     X("target-visibility", FEATURE_TARGET_VISIBILITY, 21) \
-    X("microfacet-normal-maps", FEATURE_MICROFACET_NORMAL_MAPS, 22)
+    X("microfacet-normal-maps", FEATURE_MICROFACET_NORMAL_MAPS, 22) \
+    X("light-tree", FEATURE_LIGHT_TREE, 23)
 
 SHARED_BEGIN
 #define DECLARE_FEATURE(name, constant, bit) CONST uint constant = 1u << bit;

@@ -152,6 +152,47 @@ struct ClusterPick {
 };
 ASSERT_SIZE(ClusterPick, 12);
 
+CONST uint LIGHT_NODE_WIDTH = 8u;
+CONST uint LIGHT_LEAF = 0x80000000u;         // of LightNode::child: a leaf's first entry in leaf_picks; else a node
+CONST uint LIGHT_LEAF_SIZE_SHIFT = 25u;      // six bits: lights of the leaf, less one
+CONST uint MOST_LIGHTS_PER_LEAF = 64u;
+CONST uint LIGHT_LEAF_FIRST = 0x01ffffffu;
+
+/// A node of the light tree (light_tree.h): what each of its children emits, and from where. Unused children have
+/// power 0. Arrays over the children, so that the CPU evaluates all of them at once.
+struct LightNode {
+    float center_x[8];  // mean position; of lights at infinity, the mean direction to them
+    float center_y[8];
+    float center_z[8];
+    float place[8];     // 1, or 0 for lights at infinity
+    float spread[8];    // m²: mean square of the distance from the center; positive
+    float axis_x[8];    // mean normal
+    float axis_y[8];
+    float axis_z[8];
+    float blur[8];      // positive: how far the normals scatter about their mean
+    float front[8];     // share of the emission that is one-sided
+    float power[8];     // over the largest of the node's children
+    uint child[8];      // LIGHT_LEAF | …, or a node
+};
+ASSERT_SIZE(LightNode, 384);
+
+/// A column of the alias table of a leaf's lights, with their shares of the leaf's power.
+struct LeafPick {
+    float probability;  // of `light`; else `alias`
+    uint light;
+    float light_share;
+    uint alias;
+    float alias_share;
+};
+ASSERT_SIZE(LeafPick, 20);
+
+/// Where a light or a node stands in the light tree.
+struct LightPlace {
+    uint slot;    // node * LIGHT_NODE_WIDTH + child; NONE for the root
+    float share;  // of a light: its share of its leaf's power
+};
+ASSERT_SIZE(LightPlace, 8);
+
 CONST uint CAMERA_PERSPECTIVE = 0u;
 CONST uint CAMERA_ORTHOGRAPHIC = 1u;
 
@@ -224,6 +265,7 @@ struct RenderConstants {
     uint brdf;          // BRDF_…
     uint normal_maps;   // NORMAL_MAP_…
     uint mis;           // MIS_…
+    uint light_sampler; // LIGHT_SAMPLER_…
     uint light_count;
     uint emissive_triangle_count;
     uint punctual_light_count;
@@ -232,7 +274,7 @@ struct RenderConstants {
     Camera previous_camera;
     ResamplingConstants resampling;
 };
-ASSERT_SIZE(RenderConstants, 260);
+ASSERT_SIZE(RenderConstants, 264);
 
 CONST uint BRDF_GGX = 0u;
 CONST uint BRDF_BLINN_PHONG = 1u;
@@ -242,6 +284,10 @@ CONST uint NORMAL_MAP_SHADING = 1u;     // mapped_bsdf.h
 CONST uint NORMAL_MAP_MICROFACET = 2u;  // facet_pair_bsdf.h
 CONST uint MIS_POWER = 0u;
 CONST uint MIS_BALANCE = 1u;
+// How a path picks a light at a vertex.
+CONST uint LIGHT_SAMPLER_UNIFORM = 0u;  // all lights alike
+CONST uint LIGHT_SAMPLER_POWER = 1u;    // by the light's power, with a share for all alike
+CONST uint LIGHT_SAMPLER_SPATIAL = 2u;  // by the light tree (light_tree.h)
 
 SHARED_END
 

@@ -13,23 +13,21 @@ FN EmissiveTriangle emissive_triangle_at(uint moment, uint id) {
     return load_emissive_triangles(id);
 }
 
-/// Density per solid angle, including the pick of the light, with which sample_emitter finds `point` from `reference`.
-FN float pdf_emitter(IN(EmissiveTriangle) light, vec3 reference, vec3 point) {
+/// Density per solid angle with which sample_emitter finds `point` from `reference`, if the light is picked with
+/// probability `pmf`.
+FN float pdf_emitter(IN(EmissiveTriangle) light, float pmf, vec3 reference, vec3 point) {
     PRECISE vec3 to_vertex_0 = light.vertex_0 - reference;
     TriangleView view = triangle_view(to_vertex_0, light.edge_1, light.edge_2, light.front, light.double_area);
-    return light.pmf * pdf_triangle_view(view, point - reference);
+    return pmf * pdf_triangle_view(view, point - reference);
 }
 
-/// Density per solid angle with which light sampling from `reference` finds this point of a surface.
-FN float pdf_light_of_hit(IN(Surface) s, vec3 reference) {
+/// The light that a surface is part of; NONE where it is no light.
+FN uint light_of_surface(IN(Surface) s) {
     if (!feature(FEATURE_EMISSIVE) || s.emitter_slot == NONE) {
-        return 0.0f;
+        return NONE;
     }
     uint first = load_emitter_slots(s.emitter_slot);
-    if (first == NONE) {
-        return 0.0f;
-    }
-    return pdf_emitter(load_emissive_triangles(first + s.primitive), reference, s.position);
+    return first == NONE ? NONE : first + s.primitive;
 }
 
 /// Whether `reference` sees the light's back or its edge.
@@ -50,8 +48,8 @@ FN TriangleSample sample_emitter_point(IN(EmissiveTriangle) light, vec3 referenc
     return sample_triangle_view(view, to_vertex_0, light.edge_1, light.edge_2, u);
 }
 
-/// The light sample for a point of sample_emitter_point.
-FN LightSample sample_emitter(IN(EmissiveTriangle) light, vec3 reference, IN(TriangleSample) t) {
+/// The light sample for a point of sample_emitter_point, if the light was picked with probability `pmf`.
+FN LightSample sample_emitter(IN(EmissiveTriangle) light, float pmf, vec3 reference, IN(TriangleSample) t) {
     LightSample s = no_light();
     if (!(t.pdf > 0.0f)) {
         return s;
@@ -59,7 +57,7 @@ FN LightSample sample_emitter(IN(EmissiveTriangle) light, vec3 reference, IN(Tri
     vec3 point = light.vertex_0 + t.barycentrics.x * light.edge_1 + t.barycentrics.y * light.edge_2;
     s.direction = normalize_or(point - reference, light.front);
     s.radiance = emitter_radiance(light, t.barycentrics);
-    s.pdf = MUTANT(NO_LIGHT_PICK_PDF, light.pmf, 1.0f) * t.pdf;
+    s.pdf = MUTANT(NO_LIGHT_PICK_PDF, pmf, 1.0f) * t.pdf;
     vec3 end = MUTANT(SHADOW_RAY_TO_WRONG_LIGHT, point, load_emissive_triangles(0u).vertex_0);
     s.end = emitter_end(light, end, is_behind(light, reference));
     return s;

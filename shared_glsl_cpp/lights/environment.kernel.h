@@ -34,27 +34,29 @@ FN vec3 environment_radiance(vec3 direction) {
     return vec3(0.0f, 0.0f, 0.0f);
 }
 
-/// Density per solid angle, including the pick of the light, with which sample_environment finds `direction` in a
-/// texel of probability `texel_pmf`.
-FN float pdf_environment_texel(float texel_pmf, vec3 direction) {
+/// Density per solid angle with which sample_environment finds `direction` in a texel of probability `texel_pmf`, if
+/// the environment is picked with probability `pmf`.
+FN float pdf_environment_texel(float pmf, float texel_pmf, vec3 direction) {
     float sin_theta = sqrt(direction.x * direction.x + direction.z * direction.z);  // accurate near the poles
-    return constants.environment.pmf * pdf_environment_solid_angle(texel_pmf, constants.environment.size, sin_theta);
+    return pmf * pdf_environment_solid_angle(texel_pmf, constants.environment.size, sin_theta);
 }
 
-/// Density per solid angle, including the pick of the light, with which sample_environment finds `direction`.
-FN float pdf_environment(vec3 direction) {
+/// Density per solid angle with which sample_environment finds `direction`, if the environment is picked with
+/// probability `pmf`.
+FN float pdf_environment(float pmf, vec3 direction) {
     if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
         uvec2 size = constants.environment.size;
         vec2 uv = environment_uv(direction, constants.environment.rotation);
         int x = int(min(uv.x * float(size.x), float(size.x - 1u)));
         int y = int(min(uv.y * float(size.y), float(size.y - 1u)));
-        return pdf_environment_texel(environment_texel(x, y).w, direction);
+        return pdf_environment_texel(pmf, environment_texel(x, y).w, direction);
     }
-    return constants.environment.pmf * (0.25f * INV_PI);
+    return pmf * (0.25f * INV_PI);
 }
 
-/// Samples a direction; the caller sets the radiance. `more` are two random words for the map's alias table.
-FN LightSample sample_environment_direction(uvec2 more, vec2 u) {
+/// Samples a direction, if the environment was picked with probability `pmf`; the caller sets the radiance. `more` are
+/// two random words for the map's alias table.
+FN LightSample sample_environment_direction(float pmf, uvec2 more, vec2 u) {
     LightSample s = no_light();
     s.distant = true;
     if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
@@ -65,20 +67,20 @@ FN LightSample sample_environment_direction(uvec2 more, vec2 u) {
         float y = (float(texel / size.x) + u.y) / float(size.y);
         s.direction = environment_direction(vec2(x, y), constants.environment.rotation);
         // The pdf of the texel that was picked: at its edge the direction may round into a neighbour.
-        s.pdf = pdf_environment_texel(load_environment_texels(texel).w, s.direction);
+        s.pdf = pdf_environment_texel(pmf, load_environment_texels(texel).w, s.direction);
     } else {
         s.direction = sample_uniform_sphere(u);
-        s.pdf = pdf_environment(s.direction);
+        s.pdf = pdf_environment(pmf, s.direction);
     }
     return s;
 }
 
-FN LightSample sample_environment(IN(Sampler) random, uint dimension, vec2 u) {
+FN LightSample sample_environment(float pmf, IN(Sampler) random, uint dimension, vec2 u) {
     uvec2 more = uvec2(0u, 0u);
     if (feature(FEATURE_ENVIRONMENT_MAP) && constants.environment.kind == ENVIRONMENT_MAP) {
         more = sample_bits_2d(random, dimension + DIMENSION_ENVIRONMENT);
     }
-    LightSample s = sample_environment_direction(more, u);
+    LightSample s = sample_environment_direction(pmf, more, u);
     s.radiance = environment_radiance(s.direction);
     return s;
 }

@@ -6,6 +6,19 @@
 
 SHARED_BEGIN
 
+/// A light that was picked, with the probability of that pick.
+struct LightPick {
+    uint id;  // NONE: no light
+    float pmf;
+};
+
+FN LightPick no_light_pick() {
+    LightPick pick;
+    pick.id = NONE;
+    pick.pmf = 0.0f;
+    return pick;
+}
+
 /// A point on a light as `reference` sees it.
 struct LightSample {
     vec3 direction;  // unit, toward the light

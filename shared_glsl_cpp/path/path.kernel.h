@@ -86,7 +86,9 @@ struct Vertex {
     SeenBsdf seen;
     uint dimension;  // the vertex's first dimension
     FourPairs draws;
-    uint light;                 // the picked light; NONE where no light is sampled
+    uint facing;                // pack_facing of the normal, for picking lights
+    bool samples_light;
+    LightPick light;            // its id is NONE where no light is sampled
     TriangleSample on_emitter;  // a point of the picked light, if that is an emitter
 };
 
@@ -130,6 +132,7 @@ struct PathState {
     vec3 direction;
     vec3 throughput;
     vec3 reference;        // the last vertex, from which lights were sampled
+    uint facing;           // pack_facing of the normal there
     float pdf_direction;   // of `direction`, per solid angle
     bool only_strategy;    // light sampling cannot find what the next ray may find
     bool goes_on;
@@ -162,6 +165,7 @@ FN PathState begin_path(uvec2 pixel, uint sample_index) {
                path.direction);
     path.throughput = vec3(1.0f, 1.0f, 1.0f);
     path.reference = path.origin;
+    path.facing = 0u;
     path.pdf_direction = 0.0f;
     path.only_strategy = true;
     path.goes_on = true;
@@ -180,7 +184,10 @@ FN void add_environment(INOUT(PathState) path) {
     vec3 radiance = environment_radiance(path.direction);
     RECORD(emission_weight, 1.0f);
     if (!path.only_strategy) {
-        float pdf_light = needs_light_pdf() ? pdf_environment(path.direction) : 0.0f;
+        float pdf_light = 0.0f;
+        if (needs_light_pdf()) {
+            pdf_light = pdf_light_of_miss(path.direction, path.reference, path.facing);
+        }
         float weight = bsdf_sampling_weight(path.pdf_direction, pdf_light);
         radiance = radiance * weight;
         RECORD(emission_weight, weight);
@@ -196,7 +203,10 @@ FN void add_emission(INOUT(PathState) path, IN(Surface) surface, IN(Material) ma
     if (emits && (dot(surface.normal, path.direction) < 0.0f || (material.flags & MATERIAL_DOUBLE_SIDED) != 0u)) {
         float weight = 1.0f;
         if (!path.only_strategy) {
-            float pdf_light = needs_light_pdf() ? pdf_light_of_hit(surface, path.reference) : 0.0f;
+            float pdf_light = 0.0f;
+            if (needs_light_pdf()) {
+                pdf_light = pdf_light_of_hit(surface, path.reference, path.facing);
+            }
             weight = bsdf_sampling_weight(path.pdf_direction, pdf_light);
         }
         weight = MUTANT(EMISSION_TWICE, weight, path.depth == 1u ? 2.0f * weight : weight);
@@ -211,8 +221,8 @@ FN uint next_ray_key(IN(PathState) path) { return ray_alpha_key(path.random, 2u 
 
 FN uint shadow_ray_key(IN(PathState) path) { return ray_alpha_key(path.random, 2u * path.depth - 1u); }
 
-/// Processes the hit of the path's ray: adds emitted light, and picks a light for the new vertex. Returns whether the
-/// path scatters there. The caller then samples a point on the picked emitter, if any, and calls leave_vertex.
+/// Processes the hit of the path's ray: adds emitted light, and makes the new vertex. Returns whether the path scatters
+/// there. The caller then picks a light, samples a point on it, if it is an emitter, and calls leave_vertex.
 FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
     uint depth = path.depth;
     path.found.rays += 1u;
@@ -252,20 +262,26 @@ FN bool arrive_at_vertex(INOUT(PathState) path, IN(Hit) hit, INOUT(Vertex) v) {
     v.origin = offset_ray(surface.start, v.bsdf.geometric_normal, surface.magnitude);
     v.dimension = DIMENSION_VERTEX + depth * DIMENSIONS_PER_VERTEX;
     v.draws = sample_bits_four_pairs(path.random, v.dimension);
-    v.light = NONE;
+    v.light = no_light_pick();
+    v.facing = feature(FEATURE_LIGHT_TREE) ? pack_facing(v.seen.diffuse_normal) : 0u;
     path.light_is_complete = depth == 0u && resamples_first_vertex();
-    if (!path.light_is_complete && feature(FEATURE_LIGHT_SAMPLING) &&
-        !bsdf_is_purely_delta(v.bsdf.parameters, features())) {
-        v.light = pick_light(v.position, v.draws);
-    }
+    v.samples_light = !path.light_is_complete && feature(FEATURE_LIGHT_SAMPLING) &&
+                      !bsdf_is_purely_delta(v.bsdf.parameters, features());
     return true;
+}
+
+/// Picks a light for the vertex, if it samples one. The caller then samples a point on it, if that is an emitter.
+FN void pick_vertex_light(INOUT(Vertex) v) {
+    if (v.samples_light) {
+        v.light = pick_light(v.position, v.facing, v.draws);
+    }
 }
 
 /// Samples the picked light, or takes the reservoir's light point, and samples the next direction. The caller tests
 /// the light's visibility, so that a GPU keeps no surface in registers while it traces.
 FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
     uint depth = path.depth;
-    if (path.light_is_complete || v.light != NONE) {
+    if (path.light_is_complete || v.light.id != NONE) {
         if (path.light_is_complete) {
             path.direct = resampled_direct_light(v, path.reservoir);
         } else {
@@ -277,6 +293,7 @@ FN void leave_vertex(INOUT(PathState) path, IN(Vertex) v) {
 
     path.origin = v.origin;
     path.reference = v.position;
+    path.facing = v.facing;
     path.depth = depth + 1u;
     if (!feature(FEATURE_LATER_VERTICES)) {
         return;
@@ -313,8 +330,9 @@ FN void extend_path(INOUT(PathState) path, IN(Hit) hit) {
     if (!arrive_at_vertex(path, hit, v)) {
         return;
     }
-    if (is_emitter(v.light)) {
-        LOCAL(EmissiveTriangle) light = load_emissive_triangles(v.light);
+    pick_vertex_light(v);
+    if (is_emitter(v.light.id)) {
+        LOCAL(EmissiveTriangle) light = load_emissive_triangles(v.light.id);
         v.on_emitter = sample_emitter_point(light, v.position, light_point_draws(v.draws));
     }
     leave_vertex(path, v);

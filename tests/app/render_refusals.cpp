@@ -47,6 +47,7 @@ TEST_CASE("render refuses options out of range or at odds", "[app]") {
     refused({"--brdf", "phong"}, {"--brdf phong", "ggx, blinn-phong"});
     refused({"--sampler", "halton"}, {"--sampler halton", "sobol"});
     refused({"--mis", "max"}, {"--mis max", "power, balance"});
+    refused({"--light-sampler", "near"}, {"--light-sampler near", "uniform, power, spatial"});
     refused({"--tonemap", "reinhard"}, {"reinhard", "pbr-neutral"});
     refused({"--backend", "metal"}, {"--backend metal", "cpu, vulkan"});
     refused({"--camera", "Left"}, {"no camera 'Left'", "0 'camera'"});

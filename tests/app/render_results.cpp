@@ -85,6 +85,7 @@ TEST_CASE("the EXR's stored command repeats its picture to the bit", "[app]") {
         rendered(folder, scene, "out.exr",
                  {"--spp",       "3",           "--size",      "20",   "--seed",  "9",       "--sampler", sampler,
                   "--brdf",      "blinn-phong", "--max-depth", "3",    "--mis",   "balance", "--env",     "0.1,0.2,0.3",
+                  "--light-sampler", "uniform",
                   "--env-scale", "0.7",         "--aperture",  "0.01", "--focus", "1"});
     const std::string command = first.metadata.at("command");
     std::vector<std::string> words = words_of(command);

@@ -58,7 +58,9 @@ TEST_CASE("the settings that metadata tell are those they were made of", "[rende
         }
         CHECK(told == request.settings);
     }
-    CHECK(settings_in({}) == RenderSettings());
+    RenderSettings of_old_pictures;
+    of_old_pictures.light_sampler = LightSampler::power;
+    CHECK(settings_in({}) == of_old_pictures);
     CHECK_THROWS_WITH(settings_in({{"seed", "1e9"}}), Catch::Contains("its metadata seed is '1e9'"));
     CHECK_THROWS_WITH(settings_in({{"mis", "max"}}), Catch::Contains("power, balance"));
 }
@@ -75,6 +77,9 @@ TEST_CASE("names of settings lead back to them, and an unknown one lists the oth
     }
     for (const MisHeuristic value : {MisHeuristic::power, MisHeuristic::balance}) {
         CHECK(mis_from_name(name_of(value)) == value);
+    }
+    for (const LightSampler value : {LightSampler::uniform, LightSampler::power, LightSampler::spatial}) {
+        CHECK(light_sampler_from_name(name_of(value)) == value);
     }
     try {
         sampler_from_name("halton");

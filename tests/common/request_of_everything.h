@@ -36,6 +36,7 @@ inline RenderRequest request_of_everything() {
     request.settings.sampler = SamplerKind::hammersley;
     request.settings.sample_count = 256;
     request.settings.mis = MisHeuristic::balance;
+    request.settings.light_sampler = LightSampler::uniform;
     request.settings.seed = 4294967295U;
     request.settings.generic = true;
     return request;

@@ -35,7 +35,6 @@ shared::EmissiveTriangle emitter(const glm::vec3& vertex_0, const glm::vec3& edg
     const glm::vec3 across = glm::cross(edge_1, edge_2);
     light.double_area = glm::length(across);
     light.front = across / light.double_area;
-    light.pmf = 0.25F;
     light.radiance = glm::vec3(1);
     return light;
 }
@@ -56,11 +55,11 @@ TEST_CASE("An emitter close by has the density of its solid angle, one far off t
     const shared::EmissiveTriangle far = emitter({6, 9, -8}, {0.02F, 0.01F, 0}, {0, -0.01F, 0.03F});
     for (const glm::dvec2& b : places) {
         CAPTURE(b.x, b.y);
-        CHECK(f.kernel.pdf_emitter(octant, reference, point_at(octant, b)) == Approx(0.25 / (0.5 * std::numbers::pi)).epsilon(1e-5));
+        CHECK(f.kernel.pdf_emitter(octant, 0.25F, reference, point_at(octant, b)) == Approx(0.25 / (0.5 * std::numbers::pi)).epsilon(1e-5));
         const glm::dvec3 to = glm::dvec3(point_at(far, b)) - glm::dvec3(reference);
         const double cosine = std::abs(glm::dot(glm::normalize(to), glm::dvec3(far.front)));
         const double expected = 0.25 * glm::dot(to, to) / (0.5 * static_cast<double>(far.double_area) * cosine);
-        CHECK(f.kernel.pdf_emitter(far, reference, point_at(far, b)) == Approx(expected).epsilon(1e-5));
+        CHECK(f.kernel.pdf_emitter(far, 0.25F, reference, point_at(far, b)) == Approx(expected).epsilon(1e-5));
     }
 }
 
@@ -72,10 +71,10 @@ TEST_CASE("A hit on an emitter is weighed by the density that light sampling sta
         const glm::vec3 reference = point_at(light, {0.3, 0.3}) + distance * (light.front + glm::vec3(0.3F, 0.1F, -0.2F));
         for (const glm::dvec2& u : places) {
             const auto on_emitter = f.kernel.sample_emitter_point(light, reference, glm::vec2(u));
-            const auto sampled = f.kernel.sample_emitter(light, reference, on_emitter);
+            const auto sampled = f.kernel.sample_emitter(light, 0.25F, reference, on_emitter);
             CAPTURE(distance, u.x, u.y);
             CHECK(sampled.pdf > 0);
-            CHECK(f.kernel.pdf_emitter(light, reference, point_at(light, on_emitter.barycentrics)) == Approx(sampled.pdf).epsilon(1e-4));
+            CHECK(f.kernel.pdf_emitter(light, 0.25F, reference, point_at(light, on_emitter.barycentrics)) == Approx(sampled.pdf).epsilon(1e-4));
         }
         flat += distance >= 100 ? 1 : 0;
     }

@@ -93,6 +93,14 @@ std::map<std::string, Offsets> cpp_offsets() {
          {FIELD(LightCluster, center), FIELD(LightCluster, spread), FIELD(LightCluster, pmf),
           FIELD(LightCluster, first), FIELD(LightCluster, count), FIELD(LightCluster, radius)}},
         {"ClusterPick", {FIELD(ClusterPick, probability), FIELD(ClusterPick, light), FIELD(ClusterPick, alias)}},
+        {"LightNode",
+         {FIELD(LightNode, center_x), FIELD(LightNode, center_y), FIELD(LightNode, center_z), FIELD(LightNode, place),
+          FIELD(LightNode, spread), FIELD(LightNode, axis_x), FIELD(LightNode, axis_y), FIELD(LightNode, axis_z),
+          FIELD(LightNode, blur), FIELD(LightNode, front), FIELD(LightNode, power), FIELD(LightNode, child)}},
+        {"LeafPick",
+         {FIELD(LeafPick, probability), FIELD(LeafPick, light), FIELD(LeafPick, light_share), FIELD(LeafPick, alias),
+          FIELD(LeafPick, alias_share)}},
+        {"LightPlace", {FIELD(LightPlace, slot), FIELD(LightPlace, share)}},
         {"Camera",
          {FIELD(Camera, origin), FIELD(Camera, kind), FIELD(Camera, right), FIELD(Camera, lens_radius),
           FIELD(Camera, up), FIELD(Camera, focus_distance), FIELD(Camera, forward)}},
@@ -104,7 +112,7 @@ std::map<std::string, Offsets> cpp_offsets() {
           FIELD(RenderConstants, seed), FIELD(RenderConstants, sampler_kind), FIELD(RenderConstants, sample_count),
           FIELD(RenderConstants, max_depth), FIELD(RenderConstants, integrator), FIELD(RenderConstants, brdf),
           FIELD(RenderConstants, normal_maps),
-          FIELD(RenderConstants, mis), FIELD(RenderConstants, light_count),
+          FIELD(RenderConstants, mis), FIELD(RenderConstants, light_sampler), FIELD(RenderConstants, light_count),
           FIELD(RenderConstants, emissive_triangle_count), FIELD(RenderConstants, punctual_light_count),
           FIELD(RenderConstants, light_cluster_count), FIELD(RenderConstants, atlas_tile),
           FIELD(RenderConstants, previous_camera), FIELD(RenderConstants, resampling)}},
@@ -137,7 +145,7 @@ std::map<std::string, Offsets> cpp_offsets() {
         {"WavePath",
          {FIELD(WavePath, origin), FIELD(WavePath, pdf_direction), FIELD(WavePath, direction),
           FIELD(WavePath, alpha_key), FIELD(WavePath, throughput), FIELD(WavePath, state), FIELD(WavePath, reference),
-          FIELD(WavePath, rays), FIELD(WavePath, radiance), FIELD(WavePath, padding)}},
+          FIELD(WavePath, rays), FIELD(WavePath, radiance), FIELD(WavePath, facing)}},
         {"WaveShadow",
          {FIELD(WaveShadow, origin), FIELD(WaveShadow, t_max), FIELD(WaveShadow, direction),
           FIELD(WaveShadow, alpha_key), FIELD(WaveShadow, radiance), FIELD(WaveShadow, path)}},
@@ -213,6 +221,9 @@ TEST_CASE("Arrays of shared structs have the stride of their size") {
     CHECK_STRIDE(AliasEntry);
     CHECK_STRIDE(LightCluster);
     CHECK_STRIDE(ClusterPick);
+    CHECK_STRIDE(LightNode);
+    CHECK_STRIDE(LeafPick);
+    CHECK_STRIDE(LightPlace);
     CHECK_STRIDE(RecordedRay);
     CHECK_STRIDE(FirstVertex);
     CHECK_STRIDE(Reservoir);

@@ -12,8 +12,8 @@ from conftest import SCENES
 
 
 @pytest.mark.parametrize("scene, panel, integrator, options, settings", [
-    ("cornell", "cpu", "path", ["--sampler", "hammersley", "--mis", "balance", "--max-depth", 3],
-     {"sampler": "hammersley", "mis": "balance", "max_depth": 3}),
+    ("cornell", "cpu", "path", ["--sampler", "hammersley", "--mis", "balance", "--light-sampler", "uniform", "--max-depth", 3],
+     {"sampler": "hammersley", "mis": "balance", "light_sampler": "uniform", "max_depth": 3}),
     ("brdf-grid", "cpu", "path", [], {}),
     ("brdf-grid", "cpu", "restir", ["--spatial-passes", 2, "--reuse-mis", "balance"],
      {"spatial_passes": 2, "reuse_mis": "balance"}),

@@ -91,6 +91,9 @@ std::map<std::string, int> count_features(std::uint64_t seeds) {
         counts["independent samples"] += random.settings.sampler == SamplerKind::independent;
         counts["Sobol' samples"] += random.settings.sampler == SamplerKind::sobol;
         counts["balance heuristic"] += random.settings.mis == MisHeuristic::balance;
+        counts["lights picked uniformly"] += random.settings.light_sampler == LightSampler::uniform;
+        counts["lights picked by power"] += random.settings.light_sampler == LightSampler::power;
+        counts["lights picked by the tree"] += random.settings.light_sampler == LightSampler::spatial;
         counts["pairwise reuse"] += random.settings.resampling.mis == ResamplingMis::pairwise;
         counts["balance reuse"] += random.settings.resampling.mis == ResamplingMis::balance;
         counts["visibility in the target"] += random.settings.resampling.visibility == ResamplingVisibility::target;

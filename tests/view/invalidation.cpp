@@ -64,6 +64,7 @@ TEST_CASE("What is packed or compiled otherwise invalidates the settings", "[vie
                               [](RenderSettings& s) { s.brdf = BrdfModel::blinn_phong; },
                               [](RenderSettings& s) { s.sampler = SamplerKind::independent; },
                               [](RenderSettings& s) { s.mis = MisHeuristic::balance; },
+                              [](RenderSettings& s) { s.light_sampler = LightSampler::uniform; },
                               [](RenderSettings& s) { s.max_depth = 9; },
                               [](RenderSettings& s) { s.camera = 1; },
                               [](RenderSettings& s) { s.standard_error = true; },

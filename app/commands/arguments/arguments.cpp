@@ -125,6 +125,11 @@ void add_scene_options(CLI::App& command, RenderArguments& arguments) {
             ->capture_default_str());
     arguments.panel_options.push_back(
         command.add_option("--mis", arguments.mis, "MIS heuristic of path: power or balance")->capture_default_str());
+    arguments.panel_options.push_back(
+        command
+            .add_option("--light-sampler", arguments.light_sampler,
+                        "How path and direct pick a light: uniform, power or spatial (also by distance and direction)")
+            ->capture_default_str());
     command
         .add_option(option_of(ranges::max_depth), request.settings.max_depth,
                     "Maximum number of scattering events; 1 gives emission and direct light")
@@ -206,6 +211,7 @@ void resolve_names(RenderArguments& arguments) {
     settings.normal_maps = normal_maps_from_name(arguments.normal_maps);
     settings.sampler = sampler_from_name(arguments.sampler);
     settings.mis = mis_from_name(arguments.mis);
+    settings.light_sampler = light_sampler_from_name(arguments.light_sampler);
     resolve_resampling_names(arguments);
     if (request.backend != "cpu" && request.backend != "vulkan" && request.backend != "oracle") {
         throw Error(fmt::format("--backend {}: there are only cpu, vulkan, oracle", request.backend));

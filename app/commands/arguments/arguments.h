@@ -25,6 +25,7 @@ struct RenderArguments {
     std::string normal_maps = "shading";
     std::string sampler = "sobol";
     std::string mis = "power";
+    std::string light_sampler = "spatial";
     std::string resampling_mis = "pairwise";
     std::string resampling_visibility = "shading";
     std::vector<CLI::Option*> resampling_options;  // that mean nothing without ris or restir

@@ -45,9 +45,10 @@ std::string recommended_arguments(const RandomScene& random, const std::filesyst
     const RenderSettings& s = random.settings;
     const Camera& camera = random.scene.cameras[std::size_t(s.camera)];
     std::string out = fmt::format(
-        "--size {}x{} --camera {} --integrator {} --brdf {} --normal-maps {} --sampler {} --mis {} --max-depth {}{}",
+        "--size {}x{} --camera {} --integrator {} --brdf {} --normal-maps {} --sampler {} --mis {}"
+        " --light-sampler {} --max-depth {}{}",
         s.width, s.height, camera.name, name_of(s.integrator), name_of(s.brdf), name_of(s.normal_maps),
-        name_of(s.sampler), name_of(s.mis), s.max_depth, s.generic ? " --generic" : "");
+        name_of(s.sampler), name_of(s.mis), name_of(s.light_sampler), s.max_depth, s.generic ? " --generic" : "");
     if (random.frames > 0) {
         out += fmt::format(" --frames {} --fps {}", random.frames, random_fps);
     }
