@@ -40,8 +40,10 @@ TEST_CASE("A renderer that moved has the bits of a new one at that moment, on th
     NEED_VULKAN();
     const Integrator integrator = GENERATE(Integrator::path, Integrator::ris);
     const bool keeps_previous = GENERATE(false, true);
+    const LightSampler light_sampler = GENERATE(LightSampler::power, LightSampler::spatial);
     RenderSettings settings = moment_settings(keeps_previous);
     settings.integrator = integrator;
+    settings.light_sampler = light_sampler;
     settings.resampling.near_share = 0;  // clusters of lights stay as they were when the scene was packed
     Scene scene = generate_scene("moving-light").scene;
     for (Material& material : scene.materials) {
@@ -53,13 +55,16 @@ TEST_CASE("A renderer that moved has the bits of a new one at that moment, on th
     PathRenderer moved(gpu, packed);
     std::vector<Film> films;
     for (const double seconds : {0.5, 1.5, 3.0, 0.5}) {
-        CAPTURE(seconds, keeps_previous, static_cast<int>(integrator));
+        CAPTURE(seconds, keeps_previous, static_cast<int>(integrator), static_cast<int>(light_sampler));
         pose_scene(scene, seconds);
         pack_moment(scene, settings, packed);
         moved.move_to(packed);
         films.push_back(picture_of_seed(moved, 7));
         if (seconds > 1) {
-            PathRenderer fresh(gpu, pack_scene(scene, settings));
+            // The light tree keeps its form as well.
+            const bool has_tree = light_sampler == LightSampler::spatial;
+            const PackedScene posed = has_tree ? packed : pack_scene(scene, settings);
+            PathRenderer fresh(gpu, posed);
             CHECK(same_pixels(films.back(), picture_of_seed(fresh, 7)));
         }
     }
