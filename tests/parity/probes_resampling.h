@@ -174,6 +174,47 @@ FN void probe_light_cluster(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     put(o, cluster_falloff(cluster, p.edge_1, p.axis), (length(d) + cluster.radius) * inversesqrt(squared) / squared);
 }
 
+FN void probe_light_tree(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
+    LightNode node;
+    LightWeights whole;
+    for (uint i = 0u; i < LIGHT_NODE_WIDTH; i++) {
+        node.center_x[i] = p.vertex.x;
+        node.center_y[i] = p.vertex.y;
+        node.center_z[i] = p.vertex.z;
+        node.place[i] = 1.0f;
+        node.spread[i] = 0.01f + p.u.x;
+        node.axis_x[i] = 0.5f * p.axis.x;
+        node.axis_y[i] = 0.5f * p.axis.y;
+        node.axis_z[i] = 0.5f * p.axis.z;
+        node.blur[i] = 0.1875f;
+        node.front[i] = p.u.y;
+        node.power[i] = 1.0f;
+        node.child[i] = 100u + i;
+        whole.of[i] = float((p.words.x >> (3u * i)) & 7u);  // sums of integers are exact
+    }
+    vec3 d = p.vertex - p.edge_1;
+    float most = 9.0f / (dot(d, d) + node.spread[0]);
+    put(o, light_weight(node, 0u, p.edge_1, p.axis), most);
+    put(o, light_weights(node, p.edge_1, p.axis).total, 8.0f * most);
+    whole.of[7] = 1.0f;
+    sum_weights(whole);
+    put_bits(o, uint(whole.total));
+    SharedNumber n = share_number(uvec2(p.words.y, p.words.z));
+    PickedChild picked = pick_child(node, whole, n);
+    put_bits(o, picked.link);
+    put_relative(o, picked.probability);
+    put_relative(o, child_probability(whole, p.words.w & 7u));
+    n = share_number(uvec2(p.words.y, p.words.z));
+    stretch(n, 0.5f * p.u.z, 1.0f, 1.0f);
+    put(o, n.u, 1.0f);
+    n = share_number(uvec2(p.words.y, p.words.z));
+    put_bits(o, pick_leaf_column(leaf_size(p.words.w), n));
+    put3(o, unpack_facing(p.words.x), 1.0f);
+    put(o, facing_component(p.words.x, 10u), 1.0f);
+    put_bits(o, pack_facing(vec3(1.0f, -1.0f, 0.0f)));
+    put_bits(o, no_light_pick().id);
+}
+
 #define RESAMPLING_PROBES(X)                                                                                           \
     X(integrators, 0, 0, "comparisons of integers")                                                                    \
     X(reservoir, 8, 50, "sums, a division, products")                                                                  \
@@ -185,7 +226,8 @@ FN void probe_light_cluster(IN(ProbeInput) p, INOUT(ProbeOutput) o) {
     X(pack_surface, 8, 100, "a coordinate may round to the next step")                                                 \
     X(projection, 16, 50, "dot products and three divisions")                                                          \
     X(independent_words, 0, 0, "integers")                                                                             \
-    X(light_cluster, 32, 50, "dot products, an inversesqrt and its cube")
+    X(light_cluster, 32, 50, "dot products, an inversesqrt and its cube")                                              \
+    X(light_tree, 64, 50, "dot products, three square roots, a division, and a sum that cancels")
 
 SHARED_END
 
