@@ -2,7 +2,7 @@
 # A static library that holds the folder's shaders as SPIR-V, each under its file name:
 #   #include "HEADER"; std::span<const uint32_t> diptych::core::FUNCTION(std::string_view name)
 # Shaders are compiled anew when a file they include changes, and are optimised and validated before they are embedded:
-# lavapipe compiles what spirv-opt has inlined and cleared in half the time.
+# lavapipe compiles what spirv-opt has inlined and cleared in half the time, NVIDIA's driver in a third.
 function(diptych_shaders name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "FUNCTION;HEADER;FOLDER" "")
   find_program(DIPTYCH_GLSLANG glslangValidator REQUIRED)

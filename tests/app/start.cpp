@@ -184,5 +184,5 @@ TEST_CASE("another library under that name is refused", "[app]") {
         }
     }
     REQUIRE(fs::exists(copy.parent_path() / library_name));
-    check_refusal(render(folder, copy), 2, {"picture.png", library_name, "another version"});
+    check_refusal(render(folder, copy), 2, {"picture.png", library_name, "another build"});
 }
