@@ -7,8 +7,8 @@
 
 namespace diptych::core::app {
 
-/// On a terminal the step at hand, in a line that goes when this ends. Elsewhere a line after each step that took as long
-/// as a first progress line waits: "compiling 9 pipelines: 8.1 s".
+/// On a terminal it shows the current step, in a line that it clears at the end. Elsewhere it prints a line after each
+/// step that took at least first_sparse_line seconds: "compiling 9 pipelines: 8.1 s".
 class OpeningLine {
 public:
     explicit OpeningLine(bool quiet = false);

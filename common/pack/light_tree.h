@@ -1,4 +1,4 @@
-// The light tree (shared_glsl_cpp/lights/light_tree.h) as it is made: its form once, what its nodes emit at each moment.
+// Builds the light tree (shared_glsl_cpp/lights/light_tree.h): its form once, and what its nodes emit at each moment.
 #pragma once
 
 #include "pack/packed_scene.h"
@@ -26,8 +26,8 @@ inline std::size_t nearby_lights(const PackedScene& packed) {
     return packed.emissive_triangles.size() + packed.punctual_lights.size();
 }
 
-/// The form of the tree: which lights are together, and where each light and each node is. No tree where there are fewer
-/// than two lights to choose from.
+/// Forms the tree: which lights are together, and where each light and each node is. There is no tree for fewer than two
+/// lights.
 void form_light_tree(PackedScene& packed);
 
 }  // namespace diptych::core

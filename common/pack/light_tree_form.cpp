@@ -116,8 +116,8 @@ private:
         return shared_corners == 2;
     }
 
-    /// Splits across the dimension along which atoms vary most, at their mean. Normals vary by 1 at most, and count half
-    /// of what centers do, as shares of all their variance.
+    /// The group with its split: across the dimension along which atoms vary most, at their mean. The variance of a
+    /// normal, at most 1, counts as half of that share of the variance of all centers.
     Branch measured(std::uint32_t begin, std::uint32_t end) const {
         Branch group;
         group.begin = begin;
